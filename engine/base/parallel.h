@@ -1,0 +1,119 @@
+#pragma once
+// The only door to oneTBB. Everything here gives the same result for any number of threads:
+// loops are over disjoint data, reductions and scans have a shape fixed by the data alone.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace cavea {
+
+/// Number of threads to use when the caller does not say.
+int default_threads();
+
+/// Runs f inside an arena of its own with the given number of threads (at least 1), so that the
+/// caller's scheduler settings are neither used nor changed.
+template <class F>
+void run_in_arena(int threads, F&& f) {
+  tbb::task_arena arena(std::max(threads, 1));
+  arena.execute([&] { f(); });
+}
+
+/// Calls f(begin, end) on disjoint ranges that cover [0, n).
+template <class F>
+void parallel_ranges(std::size_t n, std::size_t grain, F&& f) {
+  if (n == 0) return;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, std::max<std::size_t>(grain, 1)),
+                    [&](const tbb::blocked_range<std::size_t>& r) { f(r.begin(), r.end()); });
+}
+
+/// Calls f(i) for each i in [0, n).
+template <class F>
+void parallel_for(std::size_t n, F&& f, std::size_t grain = 1024) {
+  parallel_ranges(n, grain, [&](std::size_t b, std::size_t e) {
+    for (std::size_t i = b; i < e; ++i) f(i);
+  });
+}
+
+/// Calls f(i) for each i in [0, n), one task each, started in the order of i: for few large tasks.
+template <class F>
+void parallel_tasks(std::size_t n, F&& f) {
+  if (n == 0) return;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, n, 1),
+      [&](const tbb::blocked_range<std::size_t>& r) {
+        for (std::size_t i = r.begin(); i < r.end(); ++i) f(i);
+      },
+      tbb::simple_partitioner{});
+}
+
+/// Blocks of this many items are reduced one after the other, whatever the number of threads.
+inline constexpr std::size_t kReduceBlock = 8192;
+
+/// Reduces map(block_begin, block_end) over fixed blocks, then combines the partial results in
+/// block order.
+template <class T, class Map, class Combine>
+T parallel_reduce(std::size_t n, T identity, Map&& map, Combine&& combine) {
+  const std::size_t blocks = (n + kReduceBlock - 1) / kReduceBlock;
+  std::vector<T> partial(blocks, identity);
+  parallel_for(
+      blocks,
+      [&](std::size_t k) {
+        partial[k] = map(k * kReduceBlock, std::min(n, (k + 1) * kReduceBlock));
+      },
+      1);
+  T total = identity;
+  for (const T& p : partial) total = combine(total, p);
+  return total;
+}
+
+/// Exclusive prefix sum in place; returns the total.
+template <class T>
+T exclusive_scan(std::vector<T>& a) {
+  const std::size_t n = a.size();
+  const std::size_t blocks = (n + kReduceBlock - 1) / kReduceBlock;
+  std::vector<T> sum(blocks, T{});
+  auto block_end = [&](std::size_t k) { return std::min(n, (k + 1) * kReduceBlock); };
+  parallel_for(
+      blocks,
+      [&](std::size_t k) {
+        T s{};
+        for (std::size_t i = k * kReduceBlock; i < block_end(k); ++i) s += a[i];
+        sum[k] = s;
+      },
+      1);
+  T total{};
+  for (T& s : sum) {
+    const T here = s;
+    s = total;
+    total += here;
+  }
+  parallel_for(
+      blocks,
+      [&](std::size_t k) {
+        T s = sum[k];
+        for (std::size_t i = k * kReduceBlock; i < block_end(k); ++i) {
+          const T here = a[i];
+          a[i] = s;
+          s += here;
+        }
+      },
+      1);
+  return total;
+}
+
+/// Sorts by a strict total order (equal elements must be indistinguishable: the sort is not stable).
+template <class It, class Less>
+void parallel_sort(It begin, It end, Less less) {
+  tbb::parallel_sort(begin, end, less);
+}
+template <class It>
+void parallel_sort(It begin, It end) {
+  tbb::parallel_sort(begin, end);
+}
+
+}  // namespace cavea

@@ -1,0 +1,30 @@
+#pragma once
+#include <cmath>
+
+#include "cavea/geometry/predicates.h"
+#include "cavea/geometry/vec3.h"
+
+namespace cavea {
+
+/// 72 sqrt 3: makes the quality of the regular tetrahedron 1 (the paper's 144 sqrt 3, section 2,
+/// gives 2).
+inline constexpr double kQualityFactor = 124.70765814495915;
+
+/// The paper's quality of a tetrahedron (section 2): alpha Vol / (sum of squared edges)^(3/2).
+/// 1 for a regular one, 0 for a flat one, negative for an inverted one.
+inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 ab = b - a, ac = c - a, ad = d - a, bc = c - b, bd = d - b, cd = d - c;
+  const double edges = norm2(ab) + norm2(ac) + norm2(ad) + norm2(bc) + norm2(bd) + norm2(cd);
+  if (!(edges > 0)) return 0;
+  const double volume = dot(ab, cross(ac, ad)) * (1.0 / 6.0);
+  return kQualityFactor * volume / (edges * std::sqrt(edges));
+}
+
+/// Quality of a triangle: 4 sqrt 3 area / (sum of squared edges); 1 for an equilateral one.
+inline double triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double edges = distance2(a, b) + distance2(b, c) + distance2(c, a);
+  if (!(edges > 0)) return 0;
+  return 2.0 * 1.7320508075688772 * norm(cross(b - a, c - a)) / edges;
+}
+
+}  // namespace cavea

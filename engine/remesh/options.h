@@ -1,0 +1,39 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+namespace cavea {
+
+/// What progress() is told.
+struct Progress {
+  const char* phase = "";
+  int round = 0;
+  std::int64_t tets = 0;
+  double seconds = 0;  ///< since the start of remesh()
+};
+
+/// What the caller asks for. Lengths are in the mesh's own unit; what is not set follows from the
+/// bounding box (see resolve()).
+struct Options {
+  std::optional<double> hausd;  ///< distance to the ideal surface; default 0.001 box diagonals
+  std::optional<double> hmin;   ///< shortest wanted edge; default 0.001 box diagonals
+  std::optional<double> hmax;   ///< longest wanted edge; default 0.1 box diagonals
+  std::optional<double> hsiz;   ///< one size everywhere; excludes hmin and hmax
+  double hgrad = 1.3;           ///< largest ratio of adjacent edges (paper, equation (1)); >= 1
+  double angle = 45;            ///< degrees between normals above which an edge is a ridge
+  bool detect_ridges = true;
+
+  double min_quality = 0.1;   ///< target: worst quality
+  double min_conform = 90;    ///< target: percent of lengths within [1/sqrt2, sqrt2]
+
+  int threads = 0;  ///< 0: all cores
+  std::function<void(const Progress&)> progress;       ///< called from the calling thread only
+  const std::atomic<bool>* cancel = nullptr;           ///< when true, remesh() throws Cancelled
+};
+
+/// \throw OptionError naming the option and why: not finite, not positive, contradictory.
+void validate(const Options& options);
+
+}  // namespace cavea

@@ -1,0 +1,60 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cavea/mesh/statistics.h"
+
+namespace cavea {
+
+/// Why operators accepted or refused, summed over all parts.
+struct VerdictCount {
+  std::string op;       ///< "edge_split", "edge_collapse", ...
+  std::string verdict;  ///< "accept", "inverted", "worse_quality", ...
+  std::int64_t count = 0;
+};
+
+struct PhaseTime {
+  std::string phase;
+  double seconds = 0;
+};
+
+/// A goal of the run, and whether it was met.
+struct Target {
+  std::string name;    ///< "worst quality", "conforming lengths", "surface distance"
+  double wanted = 0, measured = 0;
+  bool met = true;
+  std::string where;   ///< place of the worst offender, when missed
+};
+
+struct MeshSummary {
+  Counts counts;
+  QualityStatistics quality;
+  LengthStatistics lengths;
+};
+
+/// What remesh() did and how good the result is.
+struct Report {
+  int threads = 0;
+  double hausd = 0, hmin = 0, hmax = 0, hgrad = 0;  ///< as resolved
+  MeshSummary before, after;  ///< before.lengths is empty (edges 0) when sizes were not yet known
+  std::vector<PhaseTime> phases;
+  double seconds = 0;
+  double tets_per_second = 0;  ///< final tets over seconds
+  std::int64_t peak_resident_bytes = 0;
+  std::vector<VerdictCount> verdicts;
+  double surface_distance = 0;  ///< two-sided, sampled, to the surface model
+  double bulge = 0;  ///< largest distance of the surface model from the input's triangles
+  std::vector<Target> targets;
+  std::vector<std::string> warnings;
+  std::vector<std::int32_t> part_of_tet;  ///< of the last parallel round, by output tet
+
+  bool targets_met() const {
+    for (const Target& t : targets)
+      if (!t.met) return false;
+    return true;
+  }
+};
+
+}  // namespace cavea
