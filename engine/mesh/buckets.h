@@ -1,0 +1,75 @@
+#pragma once
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cavea/base/parallel.h"
+
+namespace cavea {
+
+/// Values grouped by an integer key: a parallel counting sort, the substitute for a hash table of
+/// faces or edges. Which values are in a bucket depends on the data alone; their order in it does
+/// not, so that whoever reads a bucket first sorts it.
+class Buckets {
+ public:
+  Buckets() = default;
+
+  /// Calls emit(item, put) twice for each item in [0, items); emit calls put(key, value) for each
+  /// value of the item, keys in [0, keys), the same ones both times. Fewer than 2^32 values.
+  template <class Emit>
+  Buckets(std::size_t items, std::size_t keys, Emit&& emit) : ends_(keys, 0) {
+    parallel_for(items,
+                 [&](std::size_t i) { emit(i, [&](auto key, std::uint32_t) { next(key); }); });
+    values_.resize(exclusive_scan(ends_));
+    // Each cursor starts at the begin of its bucket and stops at its end.
+    parallel_for(items, [&](std::size_t i) {
+      emit(i, [&](auto key, std::uint32_t value) { values_[next(key)] = value; });
+    });
+  }
+
+  std::size_t keys() const { return ends_.size(); }
+  std::size_t size() const { return values_.size(); }
+  std::size_t begin_of(std::size_t key) const { return key == 0 ? 0 : ends_[key - 1]; }
+  std::size_t end_of(std::size_t key) const { return ends_[key]; }
+  std::uint32_t operator[](std::size_t slot) const { return values_[slot]; }
+
+  std::span<std::uint32_t> of(std::size_t key) {
+    return {values_.data() + begin_of(key), end_of(key) - begin_of(key)};
+  }
+  std::span<const std::uint32_t> of(std::size_t key) const {
+    return {values_.data() + begin_of(key), end_of(key) - begin_of(key)};
+  }
+
+ private:
+  template <class Key>
+  std::uint32_t next(Key key) {
+    return std::atomic_ref(ends_[static_cast<std::size_t>(key)])
+        .fetch_add(1, std::memory_order_relaxed);
+  }
+
+  std::vector<std::uint32_t> ends_;
+  std::vector<std::uint32_t> values_;
+};
+
+/// Lowers `target` to `value` if that is less; safe from many threads, with a result that does not
+/// depend on their order.
+template <class T>
+void atomic_min(T& target, T value) {
+  std::atomic_ref ref(target);
+  T seen = ref.load(std::memory_order_relaxed);
+  while (value < seen && !ref.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+  }
+}
+
+/// Sets bits of `target`; safe from many threads.
+template <class T>
+void atomic_or(T& target, T bits) {
+  std::atomic_ref ref(target);
+  // Most calls repeat what is there already; a read does not take the cache line from the others.
+  if ((ref.load(std::memory_order_relaxed) & bits) != bits)
+    ref.fetch_or(bits, std::memory_order_relaxed);
+}
+
+}  // namespace cavea

@@ -1,0 +1,222 @@
+#include <fmt/format.h>
+
+#include <functional>
+#include <limits>
+
+#include "cavea/base/error.h"
+#include "cavea/mesh/build.h"
+#include "cavea/mesh/faces.h"
+
+namespace cavea {
+namespace {
+
+struct BucketFace {
+  std::uint64_t key;  ///< the second and third vertex, sorted; the first is the bucket's
+  std::int32_t code;
+  bool odd;
+};
+
+struct LinkFault {
+  std::array<TetId, 3> tets{kNone, kNone, kNone};  ///< three on a face, or two on its same side
+
+  bool found() const { return tets[0] != kNone; }
+  [[noreturn]] void raise() const {
+    if (tets[2] != kNone)
+      throw InputError(
+          fmt::format("tets {}, {} and {} share one face", tets[0] + 1, tets[1] + 1, tets[2] + 1));
+    throw InputError(fmt::format("tets {} and {} lie on the same side of their common face",
+                                 tets[0] + 1, tets[1] + 1));
+  }
+};
+
+Buckets all_faces(const TetMesh& mesh) {
+  return Buckets(mesh.tets.size(), mesh.points.size(), [&](std::size_t t, auto&& put) {
+    const auto& v = mesh.tets[t];
+    if (v[0] == kNone) return;
+    for (int f = 0; f < 4; ++f) {
+      const auto& k = kFaceVertices[f];
+      put(std::min({v[k[0]], v[k[1]], v[k[2]]}), static_cast<std::uint32_t>(4 * t + f));
+    }
+  });
+}
+
+void sort_bucket(const TetMesh& mesh, std::span<const std::uint32_t> codes,
+                 std::vector<BucketFace>& out) {
+  out.clear();
+  for (const std::uint32_t code : codes) {
+    const auto face = face_vertices(mesh.tets[code >> 2], static_cast<int>(code & 3));
+    const auto v = sorted(face);
+    out.push_back({std::uint64_t(v[1]) << 32 | std::uint64_t(v[2]), static_cast<std::int32_t>(code),
+                   is_odd(face)});
+  }
+  std::sort(out.begin(), out.end(), [](const BucketFace& a, const BucketFace& b) {
+    return a.key != b.key ? a.key < b.key : a.code < b.code;
+  });
+}
+
+/// Links the faces of a sorted bucket two by two.
+LinkFault link_bucket(TetMesh& mesh, std::span<const BucketFace> faces) {
+  for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
+    const BucketFace &a = faces[i], &b = faces[i + 1];
+    if (a.key != b.key) continue;
+    const FaceLink p = FaceLink::from_code(a.code), q = FaceLink::from_code(b.code);
+    if (i + 2 < faces.size() && faces[i + 2].key == a.key)
+      return {{p.tet(), q.tet(), faces[i + 2].code >> 2}};
+    // A flat tet has no side; build() orients it by its neighbours.
+    if (a.odd == b.odd && !is_flat(mesh, p.tet()) && !is_flat(mesh, q.tet()))
+      return {{p.tet(), q.tet(), kNone}};
+    mesh.links[p.tet()][p.face()] = q;
+    mesh.links[q.tet()][q.face()] = p;
+    ++i;
+  }
+  return {};
+}
+
+LinkFault link_all(TetMesh& mesh) {
+  const Buckets buckets = all_faces(mesh);
+  return parallel_reduce(
+      buckets.keys(), LinkFault{},
+      [&](std::size_t begin, std::size_t end) {
+        std::vector<BucketFace> faces;
+        for (std::size_t v = begin; v < end; ++v) {
+          sort_bucket(mesh, buckets.of(v), faces);
+          if (const LinkFault fault = link_bucket(mesh, faces); fault.found()) return fault;
+        }
+        return LinkFault{};
+      },
+      [](const LinkFault& a, const LinkFault& b) { return a.found() ? a : b; });
+}
+
+/// The smallest tet of each vertex.
+void set_vertex_tets(TetMesh& mesh) {
+  constexpr TetId kNoneYet = std::numeric_limits<TetId>::max();
+  const std::size_t n = mesh.points.size();
+  mesh.vertex_tets.assign(n, kNoneYet);
+  parallel_for(mesh.tets.size(), [&](std::size_t t) {
+    if (!mesh.tet_alive(TetId(t))) return;
+    for (const VertexId v : mesh.tets[t]) atomic_min(mesh.vertex_tets[v], TetId(t));
+  });
+  parallel_for(n, [&](std::size_t v) {
+    if (mesh.vertex_tets[v] == kNoneYet) mesh.vertex_tets[v] = kNone;
+  });
+}
+
+struct AttachFault {
+  TriangleId triangle = kNone;
+  std::size_t faces = 0;
+};
+
+/// Makes v counter-clockwise from outside of sides[0].
+void orient(const TetMesh& mesh, Triangle& s) {
+  const FaceLink side = s.sides[0];
+  if (is_odd(s.v) == is_odd(face_vertices(mesh.tets[side.tet()], side.face()))) return;
+  std::swap(s.v[1], s.v[2]);
+  std::swap(s.edge_tag[1], s.edge_tag[2]);
+  std::swap(s.edge_ref[1], s.edge_ref[2]);
+}
+
+/// Finds the sides of a triangle. \returns how many faces it covers, if that cannot be.
+std::size_t find_sides(const TetMesh& mesh, const SurfaceFaces& faces, Triangle& s) {
+  const auto [begin, end] = faces.find(mesh, s.v);
+  if (end - begin == 0 || end - begin > 2) return end - begin;
+  s.sides = {faces[begin], FaceLink{}};
+  if (end - begin == 2) {
+    s.sides[1] = faces[begin + 1];
+    const std::int32_t r0 = mesh.tet_refs[s.sides[0].tet()], r1 = mesh.tet_refs[s.sides[1].tet()];
+    if (r0 == r1) return 2;
+    if (r1 < r0) std::swap(s.sides[0], s.sides[1]);
+  }
+  orient(mesh, s);
+  return 1;
+}
+
+AttachFault find_all_sides(TetMesh& mesh, const SurfaceFaces& faces) {
+  return parallel_reduce(
+      mesh.triangles.size(), AttachFault{},
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (!mesh.triangles[i].alive()) continue;
+          const std::size_t found = find_sides(mesh, faces, mesh.triangles[i]);
+          if (found != 1) return AttachFault{TriangleId(i), found};
+        }
+        return AttachFault{};
+      },
+      [](const AttachFault& a, const AttachFault& b) { return a.triangle != kNone ? a : b; });
+}
+
+/// Points the covered faces to their triangles. \returns the number of faces covered twice.
+std::int64_t link_triangles(TetMesh& mesh) {
+  return parallel_reduce(
+      mesh.triangles.size(), std::int64_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::int64_t twice = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          if (!mesh.triangles[i].alive()) continue;
+          for (const FaceLink side : mesh.triangles[i].sides) {
+            if (!side.is_tet()) continue;
+            std::atomic_ref link(mesh.links[side.tet()][side.face()]);
+            twice += link.exchange(FaceLink::to_triangle(TriangleId(i))).is_triangle();
+          }
+        }
+        return twice;
+      },
+      std::plus<std::int64_t>{});
+}
+
+}  // namespace
+
+void link_faces(TetMesh& mesh) {
+  parallel_for(mesh.tets.size(), [&](std::size_t t) { mesh.links[t] = {}; });
+  if (const LinkFault fault = link_all(mesh); fault.found()) fault.raise();
+  set_vertex_tets(mesh);
+  parallel_for(mesh.tets.size(), [&](std::size_t t) {
+    if (mesh.tet_alive(TetId(t))) mesh.qualities[t] = float(mesh.compute_quality(TetId(t)));
+  });
+}
+
+SurfaceFaces::SurfaceFaces(const TetMesh& mesh)
+    : faces_(mesh.tets.size(), mesh.points.size(), [&](std::size_t t, auto&& put) {
+        if (!mesh.tet_alive(TetId(t))) return;
+        for (int f = 0; f < 4; ++f) {
+          const FaceLink link = mesh.links[t][f];
+          if (link.is_unset() || (link.is_tet() && mesh.tet_refs[link.tet()] != mesh.tet_refs[t]))
+            put(sorted(face_vertices(mesh.tets[t], f))[0], static_cast<std::uint32_t>(4 * t + f));
+        }
+      }) {
+  parallel_for(faces_.keys(), [&](std::size_t v) {
+    const auto codes = faces_.of(v);
+    std::sort(codes.begin(), codes.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const auto ka = sorted(face_vertices(mesh.tets[a >> 2], static_cast<int>(a & 3)));
+      const auto kb = sorted(face_vertices(mesh.tets[b >> 2], static_cast<int>(b & 3)));
+      return ka != kb ? ka < kb : a < b;
+    });
+  });
+}
+
+SurfaceFaces::Slots SurfaceFaces::find(const TetMesh& mesh,
+                                       std::array<VertexId, 3> vertices) const {
+  const auto wanted = sorted(vertices);
+  const std::size_t end = faces_.end_of(wanted[0]);
+  std::size_t low = faces_.begin_of(wanted[0]), high = end;
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    if (key(mesh, middle) < wanted)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  while (high < end && key(mesh, high) == wanted) ++high;
+  return {low, high};
+}
+
+void attach_triangles(TetMesh& mesh, const SurfaceFaces& faces) {
+  if (const AttachFault fault = find_all_sides(mesh, faces); fault.triangle != kNone)
+    throw InternalError(
+        fmt::format("triangle {} covers {} faces of the surface", fault.triangle, fault.faces));
+  if (const std::int64_t twice = link_triangles(mesh); twice != 0)
+    throw InternalError(fmt::format("{} faces are covered by two triangles", twice));
+}
+
+void attach_triangles(TetMesh& mesh) { attach_triangles(mesh, SurfaceFaces(mesh)); }
+
+}  // namespace cavea

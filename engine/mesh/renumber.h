@@ -1,0 +1,54 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "cavea/base/ids.h"
+#include "cavea/base/parallel.h"
+#include "cavea/mesh/tet_mesh.h"
+
+namespace cavea {
+
+/// New numbers of the items that are kept, in their order.
+struct Renumbering {
+  std::vector<std::int32_t> new_id;  ///< kNone for an item that is not kept
+  std::size_t count = 0;             ///< of the kept ones
+
+  /// keep(i) is asked once for each i in [0, n); n fits in 31 bits.
+  template <class Keep>
+  Renumbering(std::size_t n, Keep&& keep) : new_id(n) {
+    std::vector<char> kept(n);
+    parallel_for(n, [&](std::size_t i) {
+      kept[i] = keep(i);
+      new_id[i] = kept[i];
+    });
+    count = std::size_t(exclusive_scan(new_id));
+    parallel_for(n, [&](std::size_t i) {
+      if (!kept[i]) new_id[i] = kNone;
+    });
+  }
+
+  std::int32_t operator[](std::int32_t old_id) const { return new_id[old_id]; }
+
+  /// The kept ones of an array of the items.
+  template <class T>
+  std::vector<T> kept_of(const std::vector<T>& all) const {
+    std::vector<T> out(count);
+    parallel_for(all.size(), [&](std::size_t i) {
+      if (new_id[i] != kNone) out[new_id[i]] = all[i];
+    });
+    return out;
+  }
+};
+
+/// Of the living vertices, tets, or triangles of a mesh.
+inline Renumbering living_vertices(const TetMesh& mesh) {
+  return {mesh.points.size(), [&](std::size_t v) { return mesh.vertex_alive(VertexId(v)); }};
+}
+inline Renumbering living_tets(const TetMesh& mesh) {
+  return {mesh.tets.size(), [&](std::size_t t) { return mesh.tet_alive(TetId(t)); }};
+}
+inline Renumbering living_triangles(const TetMesh& mesh) {
+  return {mesh.triangles.size(), [&](std::size_t i) { return mesh.triangles[i].alive(); }};
+}
+
+}  // namespace cavea

@@ -1,0 +1,73 @@
+#include "cavea/mesh/build.h"
+#include "cavea/mesh/renumber.h"
+#include "cavea/mesh/surface_edges.h"
+
+namespace cavea {
+namespace {
+
+void put_vertices(const TetMesh& mesh, const Renumbering& vertices, MeshData& out) {
+  out.vertices = vertices.kept_of(mesh.points);
+  out.vertex_refs = vertices.kept_of(mesh.vertex_refs);
+  bool all_known = true;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const std::int32_t id = vertices.new_id[v];
+    if (id == kNone) continue;
+    if (mesh.vertex_tags[v] & tag::kCorner) out.corners.push_back(id);
+    if (mesh.vertex_tags[v] & tag::kRequired) out.required_vertices.push_back(id);
+    all_known = all_known && mesh.sizes[v] > 0;
+  }
+  if (!all_known) return;
+  const std::vector<float> sizes = vertices.kept_of(mesh.sizes);
+  out.sizes.assign(sizes.begin(), sizes.end());
+}
+
+void put_tets(const TetMesh& mesh, const Renumbering& vertices, MeshData& out) {
+  const Renumbering tets = living_tets(mesh);
+  out.tets = tets.kept_of(mesh.tets);
+  out.tet_refs = tets.kept_of(mesh.tet_refs);
+  parallel_for(out.tets.size(), [&](std::size_t t) {
+    for (std::int32_t& v : out.tets[t]) v = vertices[v];
+  });
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    if (tets.new_id[t] != kNone && (mesh.tet_flags[t] & tet_flag::kRequired))
+      out.required_tets.push_back(tets.new_id[t]);
+}
+
+void put_triangles(const TetMesh& mesh, const Renumbering& vertices, MeshData& out) {
+  for (const Triangle& s : mesh.triangles) {
+    if (!s.alive()) continue;
+    if (s.tags & tag::kRequired)
+      out.required_triangles.push_back(std::int32_t(out.triangles.size()));
+    out.triangles.push_back({vertices[s.v[0]], vertices[s.v[1]], vertices[s.v[2]]});
+    out.triangle_refs.push_back(s.ref);
+  }
+}
+
+void put_edges(const TetMesh& mesh, const Renumbering& vertices, MeshData& out) {
+  const SurfaceEdges edges(mesh);
+  for (std::size_t a = 0; a < edges.vertices(); ++a)
+    edges.for_each_at(mesh, VertexId(a), [&](VertexId b, SurfaceEdges::Uses uses) {
+      const auto [triangle, k] = SurfaceEdges::decode(uses[0]);
+      const Tag tags = mesh.triangles[triangle].edge_tag[k];
+      if (!(tags & tag::kFeature)) return;
+      const std::int32_t e = std::int32_t(out.edges.size());
+      if (tags & tag::kRidge) out.ridges.push_back(e);
+      if (tags & tag::kRequired) out.required_edges.push_back(e);
+      out.edges.push_back({vertices[VertexId(a)], vertices[b]});
+      out.edge_refs.push_back(mesh.triangles[triangle].edge_ref[k]);
+    });
+}
+
+}  // namespace
+
+MeshData to_data(const TetMesh& mesh) {
+  MeshData out;
+  const Renumbering vertices = living_vertices(mesh);
+  put_vertices(mesh, vertices, out);
+  put_tets(mesh, vertices, out);
+  put_triangles(mesh, vertices, out);
+  put_edges(mesh, vertices, out);
+  return out;
+}
+
+}  // namespace cavea
