@@ -103,17 +103,6 @@ void tag_inside(TetMesh& mesh, const std::vector<EdgeEnds>& listed, BuildSummary
     for (const VertexId v : e) mesh.vertex_tags[v] |= tag::kRequired | tag::kOnRequiredEdge;
 }
 
-void tag_surface_vertices(TetMesh& mesh) {
-  parallel_for(mesh.triangles.size(), [&](std::size_t i) {
-    const Triangle& s = mesh.triangles[i];
-    for (int k = 0; k < 3; ++k) {
-      const Tag edges = s.edge_tag[(k + 1) % 3] | s.edge_tag[(k + 2) % 3];
-      const Tag tags = tag::kSurface | (edges & tag::kFeature) | (s.tags & tag::kRequired);
-      atomic_or(mesh.vertex_tags[s.v[k]], tags);
-    }
-  });
-}
-
 void tag_listed_vertices(TetMesh& mesh, const std::vector<std::int32_t>& list, Tag tags,
                          const std::vector<VertexId>& new_vertex) {
   for (const std::int32_t v : list)
@@ -130,12 +119,27 @@ void tag_required_tets(TetMesh& mesh, const std::vector<std::int32_t>& list) {
 
 }  // namespace
 
+std::vector<Tag> surface_vertex_tags(const TetMesh& mesh) {
+  std::vector<Tag> out(mesh.points.size(), 0);
+  parallel_for(mesh.triangles.size(), [&](std::size_t i) {
+    const Triangle& s = mesh.triangles[i];
+    if (!s.alive()) return;
+    for (int k = 0; k < 3; ++k) {
+      const Tag edges = s.edge_tag[(k + 1) % 3] | s.edge_tag[(k + 2) % 3];
+      const Tag tags = tag::kSurface | (edges & tag::kFeature) | (s.tags & tag::kRequired);
+      atomic_or(out[s.v[k]], tags);
+    }
+  });
+  return out;
+}
+
 void tag_features(TetMesh& mesh, const MeshData& data, const std::vector<VertexId>& new_vertex,
                   BuildSummary& summary) {
   const SurfaceEdges edges(mesh);
   tag_by_triangles(mesh, edges);
-  tag_inside(mesh, tag_listed(mesh, edges, data, new_vertex, summary), summary);
-  tag_surface_vertices(mesh);
+  const std::vector<EdgeEnds> inside = tag_listed(mesh, edges, data, new_vertex, summary);
+  mesh.vertex_tags = surface_vertex_tags(mesh);
+  tag_inside(mesh, inside, summary);
   tag_listed_vertices(mesh, data.corners, tag::kCorner, new_vertex);
   tag_listed_vertices(mesh, data.required_vertices, tag::kRequired, new_vertex);
   tag_required_tets(mesh, data.required_tets);

@@ -5,6 +5,10 @@
 
 namespace cavea {
 
+/// The tags that the vertices have by the surface triangles that they are on and those triangles'
+/// edges; 0 for a vertex inside.
+std::vector<Tag> surface_vertex_tags(const TetMesh& mesh);
+
 /// Sets the tags of the surface's edges and of all vertices, and required tets, by the lists of
 /// `data` and by the surface itself: edges between references, edges of more or fewer than two
 /// triangles. Triangles hold their own tags already.

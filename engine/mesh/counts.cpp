@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <limits>
+
+#include "cavea/base/parallel.h"
+#include "cavea/mesh/statistics.h"
+#include "cavea/mesh/surface_edges.h"
+#include "cavea/mesh/union_find.h"
+
+namespace cavea {
+namespace {
+
+struct Box {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+
+  bool empty() const { return !(low.x <= high.x); }
+  void add(const Vec3& p) { add(Box{p, p}); }
+  void add(const Box& b) {
+    low = {std::min(low.x, b.low.x), std::min(low.y, b.low.y), std::min(low.z, b.low.z)};
+    high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y), std::max(high.z, b.high.z)};
+  }
+};
+
+struct VertexSum {
+  std::int64_t vertices = 0, corners = 0, required = 0;
+  Box box;
+
+  void add(const VertexSum& b) {
+    vertices += b.vertices;
+    corners += b.corners;
+    required += b.required;
+    box.add(b.box);
+  }
+};
+
+struct TetSum {
+  std::int64_t tets = 0;
+  double volume = 0;
+  std::map<std::int32_t, std::int64_t> of_ref;
+  std::map<std::int32_t, double> volume_of_ref;
+
+  void add(const TetSum& b) {
+    tets += b.tets;
+    volume += b.volume;
+    for (const auto& [ref, n] : b.of_ref) of_ref[ref] += n;
+    for (const auto& [ref, v] : b.volume_of_ref) volume_of_ref[ref] += v;
+  }
+};
+
+/// Sums add_one(sum, i) over i in [0, n); the shape of the sum depends on n alone.
+template <class Sum, class AddOne>
+Sum sum_up(std::size_t n, AddOne&& add_one) {
+  return parallel_reduce(
+      n, Sum{},
+      [&](std::size_t begin, std::size_t end) {
+        Sum here;
+        for (std::size_t i = begin; i < end; ++i) add_one(here, i);
+        return here;
+      },
+      [](Sum a, const Sum& b) {
+        a.add(b);
+        return a;
+      });
+}
+
+VertexSum sum_vertices(const TetMesh& mesh) {
+  return sum_up<VertexSum>(mesh.points.size(), [&](VertexSum& sum, std::size_t v) {
+    if (!mesh.vertex_alive(VertexId(v))) return;
+    ++sum.vertices;
+    sum.corners += (mesh.vertex_tags[v] & tag::kCorner) != 0;
+    sum.required += (mesh.vertex_tags[v] & tag::kRequired) != 0;
+    sum.box.add(mesh.points[v]);
+  });
+}
+
+TetSum sum_tets(const TetMesh& mesh) {
+  return sum_up<TetSum>(mesh.tets.size(), [&](TetSum& sum, std::size_t t) {
+    if (!mesh.tet_alive(TetId(t))) return;
+    const auto [a, b, c, d] = mesh.corners(TetId(t));
+    const double volume = volume6(a, b, c, d) / 6;
+    ++sum.tets;
+    sum.volume += volume;
+    ++sum.of_ref[mesh.tet_refs[t]];
+    sum.volume_of_ref[mesh.tet_refs[t]] += volume;
+  });
+}
+
+struct Number {
+  std::int64_t n = 0;
+  void add(const Number& b) { n += b.n; }
+};
+
+/// How many sets hold the items for which counts(i) is true.
+template <class Counts>
+std::int64_t count_roots(std::size_t n, UnionFind& sets, Counts&& counts) {
+  return sum_up<Number>(n,
+                        [&](Number& sum, std::size_t i) {
+                          sum.n += counts(i) && sets.is_root(std::int32_t(i));
+                        })
+      .n;
+}
+
+std::int64_t count_components(const TetMesh& mesh) {
+  UnionFind sets(mesh.tets.size());
+  parallel_for(mesh.tets.size(), [&](std::size_t t) {
+    if (!mesh.tet_alive(TetId(t))) return;
+    for (int f = 0; f < 4; ++f)
+      if (const FaceLink behind = mesh.across(TetId(t), f); behind.is_tet())
+        sets.join(TetId(t), behind.tet());
+  });
+  return count_roots(mesh.tets.size(), sets,
+                     [&](std::size_t t) { return mesh.tet_alive(TetId(t)); });
+}
+
+bool is_exterior(const Triangle& s) { return s.alive() && s.sides[1].is_unset(); }
+
+std::int64_t count_boundary_components(const TetMesh& mesh, const SurfaceEdges& edges) {
+  UnionFind sets(mesh.triangles.size());
+  parallel_for(edges.vertices(), [&](std::size_t a) {
+    edges.for_each_at(mesh, VertexId(a), [&](VertexId, SurfaceEdges::Uses uses) {
+      TriangleId first = kNone;
+      for (const std::uint32_t use : uses) {
+        const TriangleId i = SurfaceEdges::decode(use).triangle;
+        if (!is_exterior(mesh.triangles[i])) continue;
+        if (first == kNone) first = i;
+        sets.join(first, i);
+      }
+    });
+  });
+  return count_roots(mesh.triangles.size(), sets,
+                     [&](std::size_t i) { return is_exterior(mesh.triangles[i]); });
+}
+
+std::int64_t count_ridges(const TetMesh& mesh, const SurfaceEdges& edges) {
+  return sum_up<Number>(edges.vertices(),
+                        [&](Number& sum, std::size_t a) {
+                          edges.for_each_at(
+                              mesh, VertexId(a), [&](VertexId, SurfaceEdges::Uses uses) {
+                                const auto [triangle, k] = SurfaceEdges::decode(uses[0]);
+                                sum.n += (mesh.triangles[triangle].edge_tag[k] & tag::kRidge) != 0;
+                              });
+                        })
+      .n;
+}
+
+}  // namespace
+
+Counts count(const TetMesh& mesh) {
+  Counts out;
+  const VertexSum vertices = sum_vertices(mesh);
+  out.vertices = vertices.vertices;
+  out.corners = vertices.corners;
+  out.required_vertices = vertices.required;
+  if (!vertices.box.empty()) {
+    out.box_min = vertices.box.low;
+    out.box_max = vertices.box.high;
+  }
+  TetSum tets = sum_tets(mesh);
+  out.tets = tets.tets;
+  out.volume = tets.volume;
+  out.tets_of_ref = std::move(tets.of_ref);
+  out.volume_of_ref = std::move(tets.volume_of_ref);
+  for (const Triangle& s : mesh.triangles)
+    if (s.alive()) ++out.triangles, ++out.triangles_of_ref[s.ref];
+  out.components = count_components(mesh);
+  const SurfaceEdges edges(mesh);
+  out.boundary_components = count_boundary_components(mesh, edges);
+  out.ridges = count_ridges(mesh, edges);
+  return out;
+}
+
+double box_diagonal(const TetMesh& mesh) {
+  const Box box = sum_vertices(mesh).box;
+  return box.empty() ? 0 : distance(box.low, box.high);
+}
+
+}  // namespace cavea

@@ -1,0 +1,171 @@
+#include "cavea/mesh/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "cavea/base/parallel.h"
+#include "cavea/geometry/metric.h"
+#include "cavea/mesh/buckets.h"
+
+namespace cavea {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <std::size_t N>
+void add(std::array<std::int64_t, N>& sum, const std::array<std::int64_t, N>& more) {
+  for (std::size_t i = 0; i < N; ++i) sum[i] += more[i];
+}
+
+/// The bin of x among `bins` equal ones from 0 to `top`; what lies outside goes to the ends.
+std::size_t equal_bin(double x, double top, std::size_t bins) {
+  if (!(x > 0)) return 0;
+  return std::min(bins - 1, std::size_t(x / top * double(bins)));
+}
+
+/// The angle in degrees between the two faces at the edge (a, b) of a tet (a, b, c, d).
+double dihedral(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 ab = b - a, n = cross(ab, c - a), m = cross(ab, d - a);
+  // |n x m| = |ab| |6 volume|; the arc tangent keeps its digits near 0 and 180 degrees.
+  const double sine = norm(ab) * std::abs(dot(n, d - a));
+  return std::atan2(sine, dot(n, m)) * (180 / std::numbers::pi);
+}
+
+struct QualitySum {
+  QualityStatistics result;
+  double sum = 0;
+  std::int64_t tets = 0;
+
+  QualitySum() {
+    result.worst = result.smallest_dihedral = kInfinity;
+    result.largest_dihedral = -kInfinity;
+  }
+  void add_tet(const TetMesh& mesh, TetId t) {
+    const auto p = mesh.corners(t);
+    const double quality = tet_quality(p[0], p[1], p[2], p[3]);
+    ++tets;
+    sum += quality;
+    ++result.histogram[equal_bin(quality, 1, result.histogram.size())];
+    if (quality < result.worst) {
+      result.worst = quality;
+      result.worst_tet = t;
+    }
+    for (const auto& e : kEdgeVertices) add_angle(dihedral(p[e[0]], p[e[1]], p[e[2]], p[e[3]]));
+  }
+  void add_angle(double angle) {
+    result.smallest_dihedral = std::min(result.smallest_dihedral, angle);
+    result.largest_dihedral = std::max(result.largest_dihedral, angle);
+    ++result.dihedral_histogram[equal_bin(angle, 180, result.dihedral_histogram.size())];
+  }
+  /// `next` holds tets of larger ids.
+  static QualitySum combine(QualitySum a, const QualitySum& next) {
+    const QualityStatistics& b = next.result;
+    a.sum += next.sum;
+    a.tets += next.tets;
+    add(a.result.histogram, b.histogram);
+    add(a.result.dihedral_histogram, b.dihedral_histogram);
+    if (b.worst < a.result.worst) {
+      a.result.worst = b.worst;
+      a.result.worst_tet = b.worst_tet;
+    }
+    a.result.smallest_dihedral = std::min(a.result.smallest_dihedral, b.smallest_dihedral);
+    a.result.largest_dihedral = std::max(a.result.largest_dihedral, b.largest_dihedral);
+    return a;
+  }
+};
+
+struct LengthSum {
+  LengthStatistics result;
+  double sum = 0;
+
+  LengthSum() {
+    result.shortest = kInfinity;
+    result.longest = -kInfinity;
+  }
+  void add_edge(const TetMesh& mesh, VertexId a, VertexId b) {
+    const Vec3 &p = mesh.points[a], &q = mesh.points[b];
+    const double length =
+        metric_length(distance(p, q), double(mesh.sizes[a]), double(mesh.sizes[b]));
+    ++result.edges;
+    sum += length;
+    result.conforming += length >= kShortEdge && length <= kLongEdge;
+    const auto bin = std::upper_bound(kLengthBins.begin(), kLengthBins.end(), length);
+    ++result.histogram[std::size_t(bin - kLengthBins.begin())];
+    result.shortest = std::min(result.shortest, length);
+    if (length > result.longest) {
+      result.longest = length;
+      result.longest_place = 0.5 * (p + q);
+    }
+  }
+  /// `next` holds edges of larger vertices.
+  static LengthSum combine(LengthSum a, const LengthSum& next) {
+    const LengthStatistics& b = next.result;
+    a.sum += next.sum;
+    a.result.edges += b.edges;
+    a.result.conforming += b.conforming;
+    add(a.result.histogram, b.histogram);
+    a.result.shortest = std::min(a.result.shortest, b.shortest);
+    if (b.longest > a.result.longest) {
+      a.result.longest = b.longest;
+      a.result.longest_place = b.longest_place;
+    }
+    return a;
+  }
+};
+
+/// For each vertex the other ends of the edges whose smaller vertex it is, once for each tet.
+Buckets edge_ends(const TetMesh& mesh) {
+  return Buckets(mesh.tets.size(), mesh.points.size(), [&](std::size_t t, auto&& put) {
+    if (!mesh.tet_alive(TetId(t))) return;
+    for (const auto& e : kEdgeVertices) {
+      const VertexId a = mesh.tets[t][e[0]], b = mesh.tets[t][e[1]];
+      put(std::min(a, b), static_cast<std::uint32_t>(std::max(a, b)));
+    }
+  });
+}
+
+}  // namespace
+
+QualityStatistics quality_statistics(const TetMesh& mesh) {
+  const QualitySum total = parallel_reduce(
+      mesh.tets.size(), QualitySum{},
+      [&](std::size_t begin, std::size_t end) {
+        QualitySum here;
+        for (std::size_t t = begin; t < end; ++t)
+          if (mesh.tet_alive(TetId(t))) here.add_tet(mesh, TetId(t));
+        return here;
+      },
+      QualitySum::combine);
+  if (total.tets == 0) return {};
+  QualityStatistics out = total.result;
+  out.mean = total.sum / double(total.tets);
+  const auto p = mesh.corners(out.worst_tet);
+  out.worst_place = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+  return out;
+}
+
+LengthStatistics length_statistics(const TetMesh& mesh) {
+  Buckets edges = edge_ends(mesh);
+  const LengthSum total = parallel_reduce(
+      edges.keys(), LengthSum{},
+      [&](std::size_t begin, std::size_t end) {
+        LengthSum here;
+        for (std::size_t a = begin; a < end; ++a) {
+          const auto ends = edges.of(a);
+          std::sort(ends.begin(), ends.end());
+          const auto last = std::unique(ends.begin(), ends.end());
+          for (auto b = ends.begin(); b != last; ++b)
+            here.add_edge(mesh, VertexId(a), static_cast<VertexId>(*b));
+        }
+        return here;
+      },
+      LengthSum::combine);
+  if (total.result.edges == 0) return {};
+  LengthStatistics out = total.result;
+  out.mean = total.sum / double(out.edges);
+  return out;
+}
+
+}  // namespace cavea
