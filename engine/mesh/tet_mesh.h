@@ -62,7 +62,9 @@ inline constexpr Tag kFrozen = 64;       ///< vertex or triangle shared with ano
 inline constexpr Tag kOnRequiredEdge = 128;
 /// Vertex that stands on the straight edge because the place on the surface was not reachable.
 inline constexpr Tag kOffSurface = 256;
-/// Edge marked as a ridge in the input, or detected; written out as Ridges.
+/// Vertex that was on the interface between parts in the last round; the next cut avoids it.
+inline constexpr Tag kWasInterface = 512;
+/// What makes a surface edge one that patches end at.
 inline constexpr Tag kFeature = kRidge | kReferenceEdge | kNonManifold | kRequired;
 }  // namespace tag
 

@@ -1,0 +1,49 @@
+#pragma once
+#include <vector>
+
+#include "cavea/mesh/tet_mesh.h"
+
+namespace cavea {
+
+/// A tet that refills a cavity.
+struct NewTet {
+  std::array<VertexId, 4> v;
+  std::int32_t ref = 0;
+  float quality = 0;
+};
+
+/// A vertex that a cavity inserts, or the new state of one that it moves.
+struct NewVertex {
+  Vec3 point;
+  float size = 0;
+  Tag tags = 0;
+  std::int32_t ref = 0;
+  Anchor anchor;
+};
+
+/// A local operation as a value: the tets and surface triangles that go and those that come. Operators
+/// fill it and read the mesh; only MeshEditor::commit() writes.
+///
+/// The new tets fill exactly the hole of the removed ones; their outer faces match those of the hole,
+/// except where removed triangles are replaced by new ones. New triangles need v, ref, patch, tags;
+/// their sides follow.
+struct Cavity {
+  std::vector<TetId> removed_tets;
+  std::vector<NewTet> tets;
+  std::vector<TriangleId> removed_triangles;
+  std::vector<Triangle> triangles;
+  VertexId removed_vertex = kNone;
+  bool inserts_vertex = false;  ///< `vertex` gets the id that MeshEditor::next_vertex() told
+  NewVertex vertex;
+
+  void clear() {
+    removed_tets.clear();
+    tets.clear();
+    removed_triangles.clear();
+    triangles.clear();
+    removed_vertex = kNone;
+    inserts_vertex = false;
+  }
+};
+
+}  // namespace cavea

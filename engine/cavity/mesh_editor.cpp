@@ -1,0 +1,234 @@
+#include "cavea/cavity/mesh_editor.h"
+
+#include <algorithm>
+
+#include "cavea/base/error.h"
+
+namespace cavea {
+namespace {
+
+constexpr std::size_t kFirstTableSize = 1024;
+/// Marks the links of tets and triangles that the cavity removes, while commit() runs.
+constexpr std::uint8_t kLeaving = 128;
+constexpr Tag kLeavingTriangle = Tag(1) << 15;
+
+std::array<VertexId, 3> sorted_key(VertexId a, VertexId b, VertexId c) {
+  if (a > b) std::swap(a, b);
+  if (b > c) std::swap(b, c);
+  if (a > b) std::swap(a, b);
+  return {a, b, c};
+}
+
+/// Whether two orders of the same three vertices differ by a rotation only.
+bool same_turn(const std::array<VertexId, 3>& a, VertexId x, VertexId y) {
+  return (a[0] == x && a[1] == y) || (a[1] == x && a[2] == y) || (a[2] == x && a[0] == y);
+}
+
+}  // namespace
+
+MeshEditor::MeshEditor(TetMesh& mesh) : mesh_(mesh), table_(kFirstTableSize) {
+  for (std::size_t t = mesh.tets.size(); t-- > 0;)
+    if (mesh.tet_alive(TetId(t)))
+      ++living_tets_;
+    else
+      free_tets_.push_back(TetId(t));
+  for (std::size_t t = mesh.triangles.size(); t-- > 0;)
+    if (!mesh.triangles[t].alive()) free_triangles_.push_back(TriangleId(t));
+  for (std::size_t v = mesh.points.size(); v-- > 0;)
+    if (!mesh.vertex_alive(VertexId(v))) free_vertices_.push_back(VertexId(v));
+}
+
+VertexId MeshEditor::next_vertex() const {
+  return free_vertices_.empty() ? VertexId(mesh_.points.size()) : free_vertices_.back();
+}
+
+MeshEditor::Face& MeshEditor::slot(VertexId a, VertexId b, VertexId c) {
+  const auto key = sorted_key(a, b, c);
+  const std::size_t mask = table_.size() - 1;
+  std::size_t i = (std::uint32_t(key[0]) * 0x9E3779B1u ^ std::uint32_t(key[1]) * 0x85EBCA77u ^
+                   std::uint32_t(key[2]) * 0xC2B2AE3Du);
+  i = (i ^ (i >> 15)) & mask;
+  while (table_[i].epoch == epoch_ && table_[i].key != key) i = (i + 1) & mask;
+  Face& face = table_[i];
+  if (face.epoch != epoch_) {
+    face.key = key;
+    face.epoch = epoch_;
+    face.open = false;
+    ++used_;
+  }
+  return face;
+}
+
+void MeshEditor::open_hole(const Cavity& cavity) {
+  for (TetId t : cavity.removed_tets) mesh_.tet_flags[t] |= kLeaving;
+  for (TriangleId t : cavity.removed_triangles) mesh_.triangles[t].tags |= kLeavingTriangle;
+  for (TetId t : cavity.removed_tets)
+    for (int f = 0; f < 4; ++f) {
+      const FaceLink link = mesh_.links[t][f];
+      if (link.is_tet() && (mesh_.tet_flags[link.tet()] & kLeaving)) continue;
+      std::int8_t side = 0;
+      if (link.is_triangle()) {
+        const Triangle& s = mesh_.triangles[link.triangle()];
+        if (s.tags & kLeavingTriangle) continue;
+        side = s.sides[0] == FaceLink::to_tet(t, f) ? 0 : 1;
+      }
+      const auto& k = mesh_.tets[t];
+      const int* fv = kFaceVertices[f];
+      Face& face = slot(k[fv[0]], k[fv[1]], k[fv[2]]);
+      face.link = link;
+      face.side = side;
+      face.open = true;
+      ++open_faces_;
+    }
+}
+
+void MeshEditor::place_vertex(const Cavity& cavity) {
+  if (!cavity.inserts_vertex) return;
+  const VertexId v = next_vertex();
+  if (free_vertices_.empty())
+    mesh_.resize_vertices(mesh_.points.size() + 1);
+  else
+    free_vertices_.pop_back();
+  mesh_.points[v] = cavity.vertex.point;
+  mesh_.sizes[v] = cavity.vertex.size;
+  mesh_.vertex_tags[v] = cavity.vertex.tags;
+  mesh_.vertex_refs[v] = cavity.vertex.ref;
+  mesh_.anchors[v] = cavity.vertex.anchor;
+}
+
+void MeshEditor::add_triangles(const Cavity& cavity) {
+  std::size_t reuse = 0;
+  for (const Triangle& t : cavity.triangles) {
+    TriangleId id;
+    if (reuse < cavity.removed_triangles.size()) {
+      id = cavity.removed_triangles[reuse++];
+    } else if (!free_triangles_.empty()) {
+      id = free_triangles_.back();
+      free_triangles_.pop_back();
+    } else {
+      id = TriangleId(mesh_.triangles.size());
+      mesh_.triangles.emplace_back();
+    }
+    mesh_.triangles[id] = t;
+    mesh_.triangles[id].sides = {};
+    Face& face = slot(t.v[0], t.v[1], t.v[2]);
+    // A face of the hole that becomes surface: the tet behind it is one of the triangle's sides.
+    const FaceLink outer = face.open ? face.link : FaceLink();
+    face.link = FaceLink::to_triangle(id);
+    face.side = -1;
+    if (outer.is_tet()) {
+      attach(outer.tet(), outer.face(), face);
+      --open_faces_;
+    }
+    face.open = true;
+  }
+  for (std::size_t i = reuse; i < cavity.removed_triangles.size(); ++i) {
+    mesh_.triangles[cavity.removed_triangles[i]] = {};
+    free_triangles_.push_back(cavity.removed_triangles[i]);
+  }
+}
+
+void MeshEditor::attach(TetId t, int f, Face& face) {
+  FaceLink& link = mesh_.links[t][f];
+  const FaceLink mine = FaceLink::to_tet(t, f);
+  if (face.link.is_triangle()) {
+    Triangle& s = mesh_.triangles[face.link.triangle()];
+    link = face.link;
+    const auto& k = mesh_.tets[t];
+    const int* fv = kFaceVertices[f];
+    int side = face.side;
+    if (side < 0) {
+      side = same_turn(s.v, k[fv[0]], k[fv[1]]) ? 0 : 1;
+    } else {
+      --open_faces_;
+      face.open = false;
+    }
+    s.sides[std::size_t(side)] = mine;
+    return;
+  }
+  link = face.link;
+  if (face.link.is_tet()) mesh_.links[face.link.tet()][face.link.face()] = mine;
+  face.open = false;
+  --open_faces_;
+}
+
+TetId MeshEditor::new_tet() {
+  if (!free_tets_.empty()) {
+    const TetId t = free_tets_.back();
+    free_tets_.pop_back();
+    return t;
+  }
+  const TetId t = TetId(mesh_.tets.size());
+  mesh_.resize_tets(mesh_.tets.size() + 1);
+  return t;
+}
+
+void MeshEditor::add_tets(const Cavity& cavity) {
+  created_.clear();
+  for (std::size_t i = 0; i < cavity.tets.size(); ++i) {
+    const NewTet& n = cavity.tets[i];
+    const TetId t = i < cavity.removed_tets.size() ? cavity.removed_tets[i] : new_tet();
+    created_.push_back(t);
+    mesh_.tets[t] = n.v;
+    mesh_.qualities[t] = n.quality;
+    mesh_.tet_refs[t] = n.ref;
+    mesh_.tet_flags[t] = tet_flag::kAskAll;
+    for (int f = 0; f < 4; ++f) {
+      mesh_.vertex_tets[n.v[f]] = t;
+      const int* fv = kFaceVertices[f];
+      Face& face = slot(n.v[fv[0]], n.v[fv[1]], n.v[fv[2]]);
+      if (face.open) {
+        attach(t, f, face);
+      } else {
+        face.link = FaceLink::to_tet(t, f);
+        face.side = 0;
+        face.open = true;
+        ++open_faces_;
+      }
+    }
+  }
+}
+
+void MeshEditor::release(const Cavity& cavity) {
+  for (std::size_t i = cavity.tets.size(); i < cavity.removed_tets.size(); ++i) {
+    const TetId t = cavity.removed_tets[i];
+    mesh_.tets[t] = {kNone, kNone, kNone, kNone};
+    mesh_.links[t] = {};
+    mesh_.tet_flags[t] = 0;
+    free_tets_.push_back(t);
+  }
+  living_tets_ += std::int64_t(cavity.tets.size()) - std::int64_t(cavity.removed_tets.size());
+  if (cavity.removed_vertex != kNone) {
+    mesh_.vertex_tets[cavity.removed_vertex] = kNone;
+    mesh_.vertex_tags[cavity.removed_vertex] = 0;
+    free_vertices_.push_back(cavity.removed_vertex);
+  }
+}
+
+void MeshEditor::commit(const Cavity& cavity) {
+  const std::size_t faces = 4 * (cavity.removed_tets.size() + cavity.tets.size());
+  while (table_.size() < 2 * faces) table_.assign(2 * table_.size(), {}), epoch_ = 0;
+  if (++epoch_ == 0) table_.assign(table_.size(), {}), epoch_ = 1;
+  used_ = 0;
+  open_faces_ = 0;
+  open_hole(cavity);
+  place_vertex(cavity);
+  add_triangles(cavity);
+  add_tets(cavity);
+  release(cavity);
+  if (open_faces_ != 0) throw InternalError("a cavity did not close");
+}
+
+void MeshEditor::move(VertexId v, const NewVertex& to, const std::vector<TetId>& tets,
+                      const std::vector<float>& qualities) {
+  mesh_.points[v] = to.point;
+  mesh_.sizes[v] = to.size;
+  mesh_.vertex_tags[v] = to.tags;
+  mesh_.anchors[v] = to.anchor;
+  for (std::size_t i = 0; i < tets.size(); ++i) {
+    mesh_.qualities[tets[i]] = qualities[i];
+    mesh_.tet_flags[tets[i]] |= tet_flag::kAskAll;
+  }
+}
+
+}  // namespace cavea

@@ -1,0 +1,65 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "cavea/cavity/cavity.h"
+#include "cavea/mesh/tet_mesh.h"
+
+namespace cavea {
+
+/// The only writer of topology in place: keeps the holes of one mesh and applies cavities to it.
+/// One editor a mesh; not shared between threads.
+class MeshEditor {
+ public:
+  explicit MeshEditor(TetMesh& mesh);
+
+  TetMesh& mesh() { return mesh_; }
+  const TetMesh& mesh() const { return mesh_; }
+
+  /// Id that the next inserted vertex will get.
+  VertexId next_vertex() const;
+
+  /// Replaces the removed entities of the cavity by the new ones. New tets are flagged kAskAll.
+  /// \throw InternalError when the cavity does not close: the mesh is then broken.
+  void commit(const Cavity& cavity);
+
+  /// Moves a vertex; `tets` is its ball, `qualities` their new qualities.
+  void move(VertexId v, const NewVertex& to, const std::vector<TetId>& tets,
+            const std::vector<float>& qualities);
+
+  std::int64_t living_tets() const { return living_tets_; }
+
+  /// Ids given to the new tets of the last commit.
+  const std::vector<TetId>& created() const { return created_; }
+
+ private:
+  /// A face of the hole or of a new tet, waiting for its other side.
+  struct Face {
+    std::array<VertexId, 3> key;
+    std::uint32_t epoch = 0;
+    FaceLink link;       ///< a tet face to connect, a triangle to attach, or a cut
+    std::int8_t side = 0;  ///< of the triangle, where the link is one; -1: a new triangle
+    bool open = false;
+  };
+
+  Face& slot(VertexId a, VertexId b, VertexId c);
+  void open_hole(const Cavity& cavity);
+  void place_vertex(const Cavity& cavity);
+  void add_triangles(const Cavity& cavity);
+  void add_tets(const Cavity& cavity);
+  void attach(TetId t, int f, Face& face);
+  void release(const Cavity& cavity);
+  TetId new_tet();
+
+  TetMesh& mesh_;
+  std::vector<TetId> free_tets_;
+  std::vector<TriangleId> free_triangles_;
+  std::vector<VertexId> free_vertices_;
+  std::vector<Face> table_;  ///< open addressing; size a power of two
+  std::uint32_t epoch_ = 0;
+  std::size_t used_ = 0;
+  std::int64_t open_faces_ = 0, living_tets_ = 0;
+  std::vector<TetId> created_;
+};
+
+}  // namespace cavea

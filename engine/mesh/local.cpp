@@ -1,0 +1,120 @@
+#include "cavea/mesh/local.h"
+
+#include <algorithm>
+
+namespace cavea {
+
+void gather_ball(const TetMesh& mesh, VertexId v, TetMarker& marker, Ball& ball) {
+  ball.v = v;
+  ball.cut = false;
+  ball.tets.clear();
+  marker.begin(mesh.tets.size());
+  const TetId first = mesh.vertex_tets[v];
+  marker.mark(first);
+  ball.tets.push_back(first);
+  for (std::size_t i = 0; i < ball.tets.size(); ++i) {
+    const TetId t = ball.tets[i];
+    const auto& k = mesh.tets[t];
+    for (int f = 0; f < 4; ++f) {
+      if (k[f] == v) continue;
+      const FaceLink n = mesh.across(t, f);
+      if (n.is_tet()) {
+        if (marker.mark(n.tet())) ball.tets.push_back(n.tet());
+      } else if (n.is_cut()) {
+        ball.cut = true;
+      }
+    }
+  }
+}
+
+namespace {
+
+/// The two other local vertices of an edge (i, j) so that (i, j, third, fourth) is even.
+void other_two(int i, int j, int& third, int& fourth) {
+  static constexpr int kThird[4][4] = {{-1, 2, 3, 1}, {3, -1, 0, 2}, {1, 3, -1, 0}, {2, 0, 1, -1}};
+  third = kThird[i][j];
+  fourth = 6 - i - j - third;
+}
+
+}  // namespace
+
+void gather_shell(const TetMesh& mesh, TetId start, int i, int j, Shell& shell) {
+  shell.p = mesh.tets[start][i];
+  shell.q = mesh.tets[start][j];
+  shell.tets.clear();
+  shell.ring.clear();
+  shell.triangles.clear();
+  shell.closed = shell.cut = false;
+  int r, s;
+  other_two(i, j, r, s);
+  const VertexId ring0 = mesh.tets[start][r], ring1 = mesh.tets[start][s];
+  shell.tets.push_back(start);
+  shell.ring.push_back(ring0);
+  shell.ring.push_back(ring1);
+
+  // Forward: leave each tet through the face that holds p, q and its newest ring vertex.
+  TetId t = start;
+  int leave = r;
+  for (;;) {
+    const FaceLink link = mesh.links[t][leave];
+    const int at = int(shell.ring.size()) - 1;
+    FaceLink next = link;
+    if (link.is_triangle()) {
+      next = mesh.across(t, leave);
+      shell.triangles.push_back({link.triangle(), at});
+    }
+    if (!next.is_tet()) {
+      shell.cut |= next.is_cut();
+      break;
+    }
+    if (next.tet() == start) {
+      shell.closed = true;
+      shell.ring.pop_back();
+      for (auto& x : shell.triangles)
+        if (x.ring == at) x.ring = 0;
+      return;
+    }
+    const VertexId pivot = shell.ring.back();
+    t = next.tet();
+    shell.ring.push_back(mesh.tets[t][next.face()]);
+    shell.tets.push_back(t);
+    leave = mesh.local_index(t, pivot);
+  }
+
+  // Open: backwards from the start, then put in front.
+  std::size_t forward_tets = shell.tets.size(), forward_ring = shell.ring.size(),
+              forward_triangles = shell.triangles.size();
+  t = start;
+  leave = s;
+  VertexId pivot = ring0;
+  for (;;) {
+    const FaceLink link = mesh.links[t][leave];
+    const int back = int(shell.ring.size() - forward_ring);
+    FaceLink next = link;
+    if (link.is_triangle()) {
+      next = mesh.across(t, leave);
+      shell.triangles.push_back({link.triangle(), -back});
+    }
+    if (!next.is_tet()) {
+      shell.cut |= next.is_cut();
+      break;
+    }
+    t = next.tet();
+    leave = mesh.local_index(t, pivot);
+    pivot = mesh.tets[t][next.face()];
+    shell.ring.push_back(pivot);
+    shell.tets.push_back(t);
+  }
+  const int shift = int(shell.ring.size() - forward_ring);
+  std::reverse(shell.tets.begin() + std::ptrdiff_t(forward_tets), shell.tets.end());
+  std::rotate(shell.tets.begin(), shell.tets.begin() + std::ptrdiff_t(forward_tets),
+              shell.tets.end());
+  std::reverse(shell.ring.begin() + std::ptrdiff_t(forward_ring), shell.ring.end());
+  std::rotate(shell.ring.begin(), shell.ring.begin() + std::ptrdiff_t(forward_ring),
+              shell.ring.end());
+  for (auto& x : shell.triangles) x.ring += shift;
+  std::rotate(shell.triangles.begin(),
+              shell.triangles.begin() + std::ptrdiff_t(forward_triangles), shell.triangles.end());
+}
+
+}  // namespace cavea

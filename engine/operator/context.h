@@ -1,0 +1,77 @@
+#pragma once
+#include <algorithm>
+#include <vector>
+
+#include "cavea/cavity/cavity.h"
+#include "cavea/cavity/verdict.h"
+#include "cavea/geometry/metric.h"
+#include "cavea/mesh/local.h"
+#include "cavea/surface/surface_model.h"
+
+namespace cavea {
+
+/// What a phase of the recipe allows its operators (paper, section 4.3: each phase is stricter than
+/// the one before).
+struct Limits {
+  double long_edge = kLongEdge;    ///< edges above are split; no collapse makes one
+  double short_edge = kShortEdge;  ///< edges below are collapsed
+  /// No split makes an edge shorter than this, except its own halves.
+  double shortest_made = 0;
+  /// A split or collapse may lower the worst quality of its cavity to this fraction of what it was...
+  double quality_ratio = 0.5;
+  /// ... or to this value.
+  double quality_floor = 0.3;
+  double tolerance = 0;  ///< largest distance of a surface triangle's samples from the model
+};
+
+/// What the operators read, and their scratch space: one a thread of control, reused.
+struct OperatorContext {
+  OperatorContext(const TetMesh& m, const SurfaceModel& s) : mesh(m), surface(s) {}
+
+  const TetMesh& mesh;
+  const SurfaceModel& surface;
+  Limits limits;
+
+  TetMarker marker;
+  Ball ball, second_ball;
+  Shell shell;
+  std::vector<TriangleId> fan;
+  std::vector<float> qualities;
+
+  Vec3 point(VertexId v) const { return mesh.points[v]; }
+  Tag tags(VertexId v) const { return mesh.vertex_tags[v]; }
+  double length(VertexId a, VertexId b) const {
+    return metric_length(distance(mesh.points[a], mesh.points[b]), mesh.sizes[a], mesh.sizes[b]);
+  }
+  /// Edge that belongs to the interface of the part, or to a required edge or tet.
+  bool frozen_edge(VertexId a, VertexId b) const {
+    const Tag both = Tag(tags(a) & tags(b));
+    return both & (tag::kFrozen | tag::kOnRequiredEdge);
+  }
+  double quality(VertexId a, VertexId b, VertexId c, VertexId d) const {
+    return tet_quality(point(a), point(b), point(c), point(d));
+  }
+  bool positive(VertexId a, VertexId b, VertexId c, VertexId d) const {
+    return certainly_positive(point(a), point(b), point(c), point(d));
+  }
+  /// Lowest quality that a split or collapse may leave where the worst was `before`. From a bad start
+  /// any progress is progress.
+  double lowest_allowed(double before) const {
+    return std::min(limits.quality_floor, limits.quality_ratio * before);
+  }
+};
+
+/// The smallest quality that counts as a tet at all; what is below is as good as flat (float
+/// coordinates of a file would turn it over).
+inline constexpr double kFlat = 1e-6;
+
+/// An operation for the sake of quality must raise the worst quality of its cavity by at least this
+/// factor; smaller gains would let operations go to and fro.
+inline constexpr double kQualityGain = 1.02;
+
+/// Whether a surface triangle of `patch` may stand at `corners`: not turned away from the ideal
+/// surface and within the tolerance of it. `hints` are anchors near it.
+Verdict check_triangle(const OperatorContext& context, const std::array<Vec3, 3>& corners, int patch,
+                       std::span<const Anchor> hints);
+
+}  // namespace cavea

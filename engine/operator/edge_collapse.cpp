@@ -1,0 +1,195 @@
+#include "cavea/operator/edge_collapse.h"
+
+#include "cavea/geometry/closest.h"
+
+namespace cavea {
+namespace {
+
+constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
+
+int index_in(const Triangle& t, VertexId v) {
+  return t.v[0] == v ? 0 : t.v[1] == v ? 1 : t.v[2] == v ? 2 : 3;
+}
+
+/// May p vanish into q? The table of section 4.1.2: interior onto all; smooth surface along the surface;
+/// feature vertices along their own curve; corners, required and frozen vertices never.
+Verdict may_merge(const OperatorContext& c) {
+  const Shell& s = c.shell;
+  const Tag p = c.tags(s.p);
+  if (p & tag::kFrozen) return Verdict::kFrozen;
+  if (p & (tag::kCorner | tag::kRequired)) return Verdict::kBreaksFeature;
+  if (!(p & tag::kSurface)) return Verdict::kAccept;
+  if (!s.on_surface()) return Verdict::kBreaksTopology;
+  for (const auto& at : s.triangles) {
+    const Triangle& t = c.mesh.triangles[at.triangle];
+    const int ip = index_in(t, s.p), iq = index_in(t, s.q);
+    const Tag edge = t.edge_tag[3 - ip - iq];
+    if (bool(p & kOnCurve) != bool(edge & tag::kFeature)) return Verdict::kBreaksFeature;
+    if ((edge | t.tags) & tag::kRequired) return Verdict::kBreaksFeature;
+    // The triangle vanishes and its edge at p merges with its edge at q: a feature edge there would
+    // meet itself (a closed curve of three edges) or pass to a triangle outside the cavity.
+    if (t.edge_tag[iq] & tag::kFeature) return Verdict::kBreaksFeature;
+  }
+  return Verdict::kAccept;
+}
+
+bool is_third(const Shell& s, VertexId v) {
+  for (const auto& at : s.triangles)
+    if (s.ring[std::size_t(at.ring)] == v) return true;
+  return false;
+}
+
+bool next_to(const TetMesh& m, const Ball& ball, VertexId v) {
+  for (TetId t : ball.tets)
+    if (m.local_index(t, v) < 4) return true;
+  return false;
+}
+
+/// Link condition on the surface: a vertex next to p on the surface and next to q at all is a third
+/// vertex of a triangle at pq, and no new surface triangle is there already. Positive volumes do not
+/// see such pinches.
+Verdict check_link(OperatorContext& c, const std::vector<TriangleId>& fan) {
+  const Shell& s = c.shell;
+  Ball& ball_q = c.second_ball;
+  gather_ball(c.mesh, s.q, c.marker, ball_q);
+  const bool q_frozen = c.tags(s.q) & tag::kFrozen;
+  for (TriangleId id : fan) {
+    const Triangle& t = c.mesh.triangles[id];
+    if (index_in(t, s.q) < 3) continue;
+    const int ip = index_in(t, s.p);
+    const VertexId a = t.v[(ip + 1) % 3], b = t.v[(ip + 2) % 3];
+    for (VertexId r : {a, b}) {
+      if (is_third(s, r)) continue;
+      // An edge qr could stand in another part, out of sight.
+      if (q_frozen && (c.tags(r) & tag::kFrozen)) return Verdict::kFrozen;
+      if (next_to(c.mesh, ball_q, r)) return Verdict::kBreaksTopology;
+    }
+    bool exists = false;
+    for_each_triangle(c.mesh, ball_q, [&](TriangleId other) {
+      const Triangle& o = c.mesh.triangles[other];
+      exists |= index_in(o, a) < 3 && index_in(o, b) < 3;
+    });
+    if (exists) return Verdict::kBreaksTopology;
+  }
+  return Verdict::kAccept;
+}
+
+/// The fan's triangles with q in place of p; edges that merge take the tag of the one at q.
+void make_triangles(const OperatorContext& c, const std::vector<TriangleId>& fan, Cavity& cavity) {
+  const Shell& s = c.shell;
+  cavity.removed_triangles = fan;
+  for (TriangleId id : fan) {
+    Triangle t = c.mesh.triangles[id];
+    if (index_in(t, s.q) < 3) continue;
+    const int ip = index_in(t, s.p);
+    t.v[ip] = s.q;
+    for (const auto& at : s.triangles) {
+      const Triangle& gone = c.mesh.triangles[at.triangle];
+      const VertexId third = s.ring[std::size_t(at.ring)];
+      for (int k = 0; k < 3; ++k)
+        if (k != ip && t.v[3 - ip - k] == third) {
+          t.edge_tag[k] = gone.edge_tag[index_in(gone, s.p)];
+          t.edge_ref[k] = gone.edge_ref[index_in(gone, s.p)];
+        }
+    }
+    cavity.triangles.push_back(t);
+  }
+}
+
+/// The new surface stays near the ideal one, and near the vertex that goes.
+Verdict check_surface(const OperatorContext& c, const Cavity& cavity) {
+  const Shell& s = c.shell;
+  const Vec3 p = c.point(s.p);
+  double nearest2 = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : cavity.triangles) {
+    const std::array<Vec3, 3> x = {c.point(t.v[0]), c.point(t.v[1]), c.point(t.v[2])};
+    nearest2 = std::min(nearest2, closest_on_triangle(p, x[0], x[1], x[2]).distance2);
+    const Anchor hints[4] = {c.mesh.anchors[t.v[0]], c.mesh.anchors[t.v[1]], c.mesh.anchors[t.v[2]],
+                             c.mesh.anchors[s.p]};
+    if (const Verdict v = check_triangle(c, x, t.patch, hints); v != Verdict::kAccept) return v;
+  }
+  const double tolerance2 = c.limits.tolerance * c.limits.tolerance;
+  return nearest2 > tolerance2 ? Verdict::kOffSurface : Verdict::kAccept;
+}
+
+/// On a feature curve: the edge that bridges p stays near the curve and near p, and does not turn.
+Verdict check_curve(const OperatorContext& c, const std::vector<TriangleId>& fan) {
+  const Shell& s = c.shell;
+  VertexId previous = kNone;
+  for (TriangleId id : fan) {
+    const Triangle& t = c.mesh.triangles[id];
+    const int ip = index_in(t, s.p);
+    for (int k = 1; k <= 2; ++k) {
+      const VertexId v = t.v[(ip + 3 - k) % 3];
+      if ((t.edge_tag[(ip + k) % 3] & tag::kFeature) && v != s.q) previous = v;
+    }
+  }
+  if (previous == kNone) return Verdict::kBreaksFeature;
+  const Vec3 a = c.point(previous), b = c.point(s.q), p = c.point(s.p);
+  const double tolerance2 = c.limits.tolerance * c.limits.tolerance;
+  if (closest_on_segment(p, a, b).distance2 > tolerance2) return Verdict::kOffSurface;
+  const Anchor hints[1] = {c.mesh.anchors[s.p]};
+  if (c.surface.place_on_curve((a + b) / 2, hints).distance2 > tolerance2) return Verdict::kOffSurface;
+  return Verdict::kAccept;
+}
+
+/// The ball's tets with q in place of p.
+Verdict make_tets(OperatorContext& c, bool quality_gain, Cavity& cavity) {
+  const Shell& s = c.shell;
+  double before = 1, after = 1;
+  for (TetId t : c.ball.tets) {
+    before = std::min(before, double(c.mesh.qualities[t]));
+    if (c.mesh.tet_flags[t] & tet_flag::kRequired) return Verdict::kBreaksFeature;
+  }
+  const double lowest =
+      std::max(kFlat, quality_gain ? before * kQualityGain : c.lowest_allowed(before));
+  for (TetId t : c.ball.tets) {
+    std::array<VertexId, 4> v = c.mesh.tets[t];
+    bool in_shell = false;
+    for (VertexId& k : v) {
+      in_shell |= k == s.q;
+      if (k == s.p) k = s.q;
+    }
+    if (in_shell) continue;
+    if (!c.positive(v[0], v[1], v[2], v[3])) return Verdict::kInverted;
+    const double quality = c.quality(v[0], v[1], v[2], v[3]);
+    after = std::min(after, quality);
+    if (after < lowest) return Verdict::kWorseQuality;
+    cavity.tets.push_back({v, c.mesh.tet_refs[t], float(quality)});
+  }
+  return cavity.tets.empty() ? Verdict::kBreaksTopology : Verdict::kAccept;
+}
+
+bool makes_long_edge(const OperatorContext& c, const Cavity& cavity) {
+  const VertexId q = c.shell.q;
+  for (const NewTet& t : cavity.tets)
+    for (VertexId v : t.v)
+      if (v != q && c.length(q, v) > c.limits.long_edge) return true;
+  return false;
+}
+
+}  // namespace
+
+Verdict edge_collapse(OperatorContext& c, bool quality_gain, Cavity& cavity) {
+  cavity.clear();
+  const Shell& s = c.shell;
+  if (const Verdict v = may_merge(c); v != Verdict::kAccept) return v;
+  gather_ball(c.mesh, s.p, c.marker, c.ball);
+  if (c.ball.cut) return Verdict::kFrozen;
+  if (const Verdict v = make_tets(c, quality_gain, cavity); v != Verdict::kAccept) return v;
+  if (makes_long_edge(c, cavity)) return Verdict::kBadLength;
+  if (c.tags(s.p) & tag::kSurface) {
+    c.fan.clear();
+    for_each_triangle(c.mesh, c.ball, [&](TriangleId t) { c.fan.push_back(t); });
+    if (const Verdict v = check_link(c, c.fan); v != Verdict::kAccept) return v;
+    make_triangles(c, c.fan, cavity);
+    if (const Verdict v = check_surface(c, cavity); v != Verdict::kAccept) return v;
+    if (c.tags(s.p) & kOnCurve)
+      if (const Verdict v = check_curve(c, c.fan); v != Verdict::kAccept) return v;
+  }
+  cavity.removed_tets = c.ball.tets;
+  cavity.removed_vertex = s.p;
+  return Verdict::kAccept;
+}
+
+}  // namespace cavea

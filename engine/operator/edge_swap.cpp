@@ -1,0 +1,152 @@
+#include "cavea/operator/edge_swap.h"
+
+#include <array>
+
+namespace cavea {
+namespace {
+
+/// Rings with more vertices are left alone: 99.5% have at most 7, and the work grows with the cube.
+constexpr int kMaxRing = 10;
+
+/// The best triangulation of a polygon ring[0..n): best_[i][j] is the largest worst quality over the
+/// sub-polygon i..j, apex_[i][j] the vertex of the triangle on its side (i, j).
+class RingTriangulation {
+ public:
+  RingTriangulation(const OperatorContext& c, VertexId p, VertexId q, const VertexId* ring, int n)
+      : context_(c), p_(p), q_(q), ring_(ring), n_(n) {}
+
+  /// Worst quality of the best triangulation, or 0 if none is better than `threshold`.
+  double solve(double threshold) {
+    for (int gap = 1; gap < n_; ++gap)
+      for (int i = 0; i + gap < n_; ++i) best_[i][i + gap] = gap == 1 ? 1.0 : solve(i, i + gap, threshold);
+    return best_[0][n_ - 1];
+  }
+
+  void fill(std::int32_t ref, Cavity& cavity) const { fill(0, n_ - 1, ref, cavity); }
+
+ private:
+  double solve(int i, int j, double threshold) {
+    double best = 0;
+    for (int k = i + 1; k < j; ++k) {
+      const double limit = std::max(best, threshold);
+      if (best_[i][k] <= limit || best_[k][j] <= limit) continue;
+      const double here = std::min(std::min(best_[i][k], best_[k][j]), triangle(i, k, j, limit));
+      if (here > limit) best = here, apex_[i][j] = std::int8_t(k);
+    }
+    return best;
+  }
+
+  /// Worse quality of the two tets on a triangle of the ring; 0 if not above the limit.
+  double triangle(int i, int k, int j, double limit) const {
+    const VertexId a = ring_[i], b = ring_[k], c = ring_[j];
+    const double over = context_.quality(q_, a, c, b);
+    if (over <= limit) return 0;
+    const double under = context_.quality(p_, a, b, c);
+    if (under <= limit) return 0;
+    if (!context_.positive(q_, a, c, b) || !context_.positive(p_, a, b, c)) return 0;
+    return std::min(over, under);
+  }
+
+  void fill(int i, int j, std::int32_t ref, Cavity& cavity) const {
+    if (j - i < 2) return;
+    const int k = apex_[i][j];
+    const VertexId a = ring_[i], b = ring_[k], c = ring_[j];
+    cavity.tets.push_back({{p_, a, b, c}, ref, float(context_.quality(p_, a, b, c))});
+    cavity.tets.push_back({{q_, a, c, b}, ref, float(context_.quality(q_, a, c, b))});
+    fill(i, k, ref, cavity);
+    fill(k, j, ref, cavity);
+  }
+
+  const OperatorContext& context_;
+  VertexId p_, q_;
+  const VertexId* ring_;
+  int n_;
+  std::array<std::array<double, kMaxRing + 1>, kMaxRing + 1> best_;
+  std::array<std::array<std::int8_t, kMaxRing + 1>, kMaxRing + 1> apex_;
+};
+
+Verdict may_swap(const OperatorContext& c) {
+  const Shell& s = c.shell;
+  if (s.cut || c.frozen_edge(s.p, s.q)) return Verdict::kFrozen;
+  if (s.ring.size() > kMaxRing) return Verdict::kTooLarge;
+  for (TetId t : s.tets)
+    if (c.mesh.tet_flags[t] & tet_flag::kRequired) return Verdict::kBreaksFeature;
+  return Verdict::kAccept;
+}
+
+/// The smooth surface edge (p, q) of triangles pqa and qpb becomes ab.
+Verdict swap_triangles(OperatorContext& c, Cavity& cavity) {
+  const Shell& s = c.shell;
+  if (s.triangles.size() != 2) return Verdict::kBreaksFeature;
+  const VertexId a = s.ring[std::size_t(s.triangles[0].ring)],
+                 b = s.ring[std::size_t(s.triangles[1].ring)];
+  if (c.frozen_edge(a, b)) return Verdict::kFrozen;
+  const Triangle& ta = c.mesh.triangles[s.triangles[0].triangle];
+  const Triangle& tb = c.mesh.triangles[s.triangles[1].triangle];
+  if ((ta.tags | tb.tags) & tag::kRequired) return Verdict::kBreaksFeature;
+  auto index = [](const Triangle& t, VertexId v) { return t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2; };
+  if (ta.edge_tag[index(ta, a)] & tag::kFeature) return Verdict::kBreaksFeature;
+  // An edge ab that exists already would be on the surface twice.
+  gather_ball(c.mesh, a, c.marker, c.second_ball);
+  for (TetId t : c.second_ball.tets)
+    if (c.mesh.local_index(t, b) < 4) return Verdict::kBreaksTopology;
+
+  for (const VertexId kept : {s.p, s.q}) {
+    const VertexId gone = kept == s.p ? s.q : s.p;
+    Triangle t = ta;  // (.., gone -> b): keeps the edge from `kept` to a, and takes kept-b from tb
+    t.v[index(ta, gone)] = b;
+    t.edge_tag[index(ta, kept)] = 0, t.edge_ref[index(ta, kept)] = 0;
+    t.edge_tag[index(ta, gone)] = ta.edge_tag[index(ta, gone)];
+    t.edge_ref[index(ta, gone)] = ta.edge_ref[index(ta, gone)];
+    t.edge_tag[index(ta, a)] = tb.edge_tag[index(tb, gone)];
+    t.edge_ref[index(ta, a)] = tb.edge_ref[index(tb, gone)];
+    cavity.triangles.push_back(t);
+  }
+  const Anchor hints[4] = {c.mesh.anchors[s.p], c.mesh.anchors[s.q], c.mesh.anchors[a],
+                           c.mesh.anchors[b]};
+  for (const Triangle& t : cavity.triangles) {
+    const std::array<Vec3, 3> x = {c.point(t.v[0]), c.point(t.v[1]), c.point(t.v[2])};
+    if (const Verdict v = check_triangle(c, x, t.patch, hints); v != Verdict::kAccept) return v;
+  }
+  cavity.removed_triangles = {s.triangles[0].triangle, s.triangles[1].triangle};
+  return Verdict::kAccept;
+}
+
+}  // namespace
+
+Verdict edge_swap(OperatorContext& c, Cavity& cavity) {
+  cavity.clear();
+  const Shell& s = c.shell;
+  if (const Verdict v = may_swap(c); v != Verdict::kAccept) return v;
+  double before = 1;
+  for (TetId t : s.tets) before = std::min(before, double(c.mesh.qualities[t]));
+  const double threshold = std::max(kFlat, before * kQualityGain);
+  cavity.removed_tets = s.tets;
+
+  if (s.closed && !s.on_surface()) {
+    RingTriangulation ring(c, s.p, s.q, s.ring.data(), int(s.ring.size()));
+    if (ring.solve(threshold) <= threshold) return Verdict::kWorseQuality;
+    ring.fill(c.mesh.tet_refs[s.tets[0]], cavity);
+    return Verdict::kAccept;
+  }
+  if (!s.on_surface()) return Verdict::kFrozen;  // open without a surface: the rim of a part
+  // One sector a side of the surface; on the exterior boundary there is one.
+  if (s.triangles.size() != 2) return Verdict::kBreaksFeature;
+  const int first = s.triangles[0].ring, second = s.triangles[1].ring, n = int(s.ring.size());
+  std::vector<VertexId> sector;
+  auto add_sector = [&](int from, int to) {
+    sector.clear();
+    for (int i = from; i <= to; ++i) sector.push_back(s.ring_at(std::size_t(i)));
+    if (sector.size() < 3) return false;
+    RingTriangulation ring(c, s.p, s.q, sector.data(), int(sector.size()));
+    if (ring.solve(threshold) <= threshold) return false;
+    ring.fill(c.mesh.tet_refs[s.tets[std::size_t(from % int(s.tets.size()))]], cavity);
+    return true;
+  };
+  if (!add_sector(std::min(first, second), std::max(first, second))) return Verdict::kWorseQuality;
+  if (s.closed && !add_sector(std::max(first, second), std::min(first, second) + n))
+    return Verdict::kWorseQuality;
+  return swap_triangles(c, cavity);
+}
+
+}  // namespace cavea

@@ -1,0 +1,170 @@
+#include "cavea/operator/relocate.h"
+
+#include <cmath>
+
+namespace cavea {
+namespace {
+
+/// Shares of the way to the target that are tried in turn.
+constexpr double kShares[] = {1, 0.5, 0.2};
+/// The mean quality of a ball must rise by this much where the worst does not.
+constexpr double kMeanGain = 0.002;
+constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
+
+struct BallQuality {
+  double worst = 1, sum = 0;
+};
+
+/// Height of a regular tet over its face, in edges.
+constexpr double kRegularHeight = 0.816496580927726;
+
+/// Mean, weighted towards bad tets, of the places of the vertex that would make each tet of its ball
+/// as regular as its face opposite allows.
+Vec3 ideal_place(const OperatorContext& c, VertexId v) {
+  constexpr double kWorstCounted = 0.05;  // bounds the weight of a bad tet
+  Vec3 sum{};
+  double weights = 0;
+  for (TetId t : c.ball.tets) {
+    const int* f = kFaceVertices[c.mesh.local_index(t, v)];
+    const auto& k = c.mesh.tets[t];
+    const Vec3 x = c.point(k[f[0]]), y = c.point(k[f[1]]), z = c.point(k[f[2]]);
+    const Vec3 n = cross(y - x, z - x);  // away from v
+    const double edge = std::sqrt((distance2(x, y) + distance2(y, z) + distance2(z, x)) / 3);
+    const double area2 = norm(n);
+    if (!(area2 > 0)) continue;
+    const double q = std::max(kWorstCounted, double(c.mesh.qualities[t]));
+    const double w = 1 / (q * q);
+    sum += w * ((x + y + z) / 3 - (kRegularHeight * edge / area2) * n);
+    weights += w;
+  }
+  return weights > 0 ? sum / weights : c.point(v);
+}
+
+BallQuality now(const OperatorContext& c) {
+  BallQuality b;
+  for (TetId t : c.ball.tets) {
+    b.worst = std::min(b.worst, double(c.mesh.qualities[t]));
+    b.sum += c.mesh.qualities[t];
+  }
+  return b;
+}
+
+/// Qualities of the ball with v at x; false as soon as one falls below `lowest` or is not positive.
+bool evaluate(OperatorContext& c, VertexId v, const Vec3& x, double lowest, BallQuality& b) {
+  b = {};
+  c.qualities.clear();
+  for (TetId t : c.ball.tets) {
+    const auto& k = c.mesh.tets[t];
+    Vec3 p[4];
+    for (int i = 0; i < 4; ++i) p[i] = k[i] == v ? x : c.point(k[i]);
+    const double q = tet_quality(p[0], p[1], p[2], p[3]);
+    if (q < lowest || !certainly_positive(p[0], p[1], p[2], p[3])) return false;
+    c.qualities.push_back(float(q));
+    b.worst = std::min(b.worst, double(float(q)));
+    b.sum += float(q);
+  }
+  return true;
+}
+
+bool better(const BallQuality& a, const BallQuality& b, std::size_t tets) {
+  return a.worst > b.worst * kQualityGain || a.sum > b.sum + kMeanGain * double(tets);
+}
+
+/// The two neighbours of a feature vertex on its curve.
+bool curve_neighbors(const OperatorContext& c, VertexId v, std::array<VertexId, 2>& ends) {
+  int n = 0;
+  ends = {kNone, kNone};
+  for (TriangleId id : c.fan) {
+    const Triangle& t = c.mesh.triangles[id];
+    for (int k = 0; k < 3; ++k) {
+      if (t.v[k] == v || !(t.edge_tag[k] & tag::kFeature)) continue;
+      const VertexId end = t.v[(k + 1) % 3] == v ? t.v[(k + 2) % 3] : t.v[(k + 1) % 3];
+      if (end == ends[0] || end == ends[1]) continue;
+      if (n == 2) return false;
+      ends[n++] = end;
+    }
+  }
+  return n == 2;
+}
+
+Verdict check_fan(const OperatorContext& c, VertexId v, const NewVertex& to) {
+  for (TriangleId id : c.fan) {
+    const Triangle& t = c.mesh.triangles[id];
+    std::array<Vec3, 3> x;
+    for (int k = 0; k < 3; ++k) x[k] = t.v[k] == v ? to.point : c.point(t.v[k]);
+    const Anchor hints[3] = {to.anchor, c.mesh.anchors[t.v[t.v[0] == v ? 1 : 0]], c.mesh.anchors[v]};
+    if (const Verdict r = check_triangle(c, x, t.patch, hints); r != Verdict::kAccept) return r;
+  }
+  return Verdict::kAccept;
+}
+
+/// Where a surface vertex goes for a wished place: onto its curve or its patch.
+SurfacePoint on_surface(const OperatorContext& c, VertexId v, const Vec3& wish) {
+  const Anchor hints[1] = {c.mesh.anchors[v]};
+  if (c.tags(v) & kOnCurve) return c.surface.place_on_curve(wish, hints);
+  return c.surface.place(wish, c.mesh.triangles[c.fan[0]].patch, hints);
+}
+
+Vec3 surface_target(const OperatorContext& c, VertexId v) {
+  std::array<VertexId, 2> ends;
+  if ((c.tags(v) & kOnCurve) && curve_neighbors(c, v, ends))
+    return (c.point(ends[0]) + c.point(ends[1])) / 2;
+  // Half way between what the surface and what the volume would like.
+  Vec3 sum{};
+  for (TriangleId id : c.fan)
+    for (VertexId k : c.mesh.triangles[id].v)
+      if (k != v) sum += c.point(k);
+  return (sum / (2.0 * double(c.fan.size())) + ideal_place(c, v)) / 2;
+}
+
+Verdict relocate_on_surface(OperatorContext& c, VertexId v, NewVertex& to) {
+  c.fan.clear();
+  for_each_triangle(c.mesh, c.ball, [&](TriangleId t) { c.fan.push_back(t); });
+  if (c.fan.empty()) return Verdict::kBreaksFeature;
+  for (TriangleId t : c.fan)
+    if (c.mesh.triangles[t].tags & tag::kRequired) return Verdict::kBreaksFeature;
+  std::array<VertexId, 2> ends;
+  if ((c.tags(v) & kOnCurve) && !curve_neighbors(c, v, ends)) return Verdict::kBreaksFeature;
+  const BallQuality before = now(c);
+  const bool off = c.tags(v) & tag::kOffSurface;
+  const Vec3 from = c.point(v), target = off ? from : surface_target(c, v);
+  Verdict why = Verdict::kWorseQuality;
+  for (const double share : kShares) {
+    const SurfacePoint at = on_surface(c, v, from + share * (target - from));
+    if (at.anchor.facet == kNone) return Verdict::kOffSurface;
+    to.point = off ? from + share * (at.point - from) : at.point;
+    to.anchor = at.anchor;
+    BallQuality after;
+    // A vertex that is not on the surface yet goes there if the tets allow; others must gain.
+    const double lowest = off ? std::max(kFlat, c.lowest_allowed(before.worst)) : before.worst;
+    if (!evaluate(c, v, to.point, lowest, after)) continue;
+    if (!off && !better(after, before, c.ball.tets.size())) continue;
+    if (why = check_fan(c, v, to); why != Verdict::kAccept) continue;
+    if (off && share == 1) to.tags &= Tag(~tag::kOffSurface);
+    return Verdict::kAccept;
+  }
+  return why;
+}
+
+}  // namespace
+
+Verdict relocate(OperatorContext& c, VertexId v, NewVertex& to) {
+  const Tag tags = c.tags(v);
+  if (tags & tag::kFrozen) return Verdict::kFrozen;
+  if (tags & (tag::kCorner | tag::kRequired)) return Verdict::kBreaksFeature;
+  gather_ball(c.mesh, v, c.marker, c.ball);
+  if (c.ball.cut) return Verdict::kFrozen;
+  to = {c.point(v), c.mesh.sizes[v], tags, c.mesh.vertex_refs[v], c.mesh.anchors[v]};
+  if (tags & tag::kSurface) return relocate_on_surface(c, v, to);
+  const BallQuality before = now(c);
+  const Vec3 from = c.point(v), target = ideal_place(c, v);
+  for (const double share : kShares) {
+    to.point = from + share * (target - from);
+    BallQuality after;
+    if (evaluate(c, v, to.point, before.worst, after) && better(after, before, c.ball.tets.size()))
+      return Verdict::kAccept;
+  }
+  return Verdict::kWorseQuality;
+}
+
+}  // namespace cavea

@@ -1,0 +1,232 @@
+#include "cavea/part/extract.h"
+
+#include <algorithm>
+#include <atomic>
+#include <tuple>
+
+#include "cavea/base/parallel.h"
+#include "cavea/mesh/buckets.h"
+
+namespace cavea {
+namespace {
+
+constexpr std::int32_t kShared = -2;
+
+/// The part of each vertex, or kShared.
+std::vector<std::int32_t> vertex_parts(const TetMesh& mesh, const std::vector<std::int32_t>& labels) {
+  std::vector<std::int32_t> part(mesh.points.size(), kNone);
+  parallel_for(mesh.tets.size(), [&](std::size_t t) {
+    for (VertexId v : mesh.tets[t]) {
+      std::atomic_ref ref(part[v]);
+      std::int32_t seen = ref.load(std::memory_order_relaxed);
+      while (seen != labels[t] && seen != kShared) {
+        const std::int32_t wanted = seen == kNone ? labels[t] : kShared;
+        if (ref.compare_exchange_weak(seen, wanted, std::memory_order_relaxed)) break;
+      }
+    }
+  });
+  return part;
+}
+
+/// Ascending members of each bucket, and each member's position in its bucket.
+struct Groups {
+  Buckets buckets;
+  std::vector<std::int32_t> local;
+
+  Groups(const std::vector<std::int32_t>& key, int keys)
+      : buckets(key.size(), std::size_t(keys),
+                [&](std::size_t i, auto&& put) {
+                  if (key[i] >= 0) put(key[i], std::uint32_t(i));
+                }),
+        local(key.size(), kNone) {
+    parallel_for(
+        std::size_t(keys),
+        [&](std::size_t k) {
+          const auto members = buckets.of(k);
+          std::sort(members.begin(), members.end());
+          for (std::size_t i = 0; i < members.size(); ++i) local[members[i]] = std::int32_t(i);
+        },
+        1);
+  }
+};
+
+/// What all parts are extracted from.
+struct Whole {
+  const TetMesh& mesh;
+  const std::vector<std::int32_t>& labels;
+  Groups tets, vertices;
+  std::vector<std::int32_t> vertex_part;
+  /// Local id of each triangle in the part of each of its sides.
+  std::vector<std::array<TriangleId, 2>> local_triangle;
+  /// For cut k of each part: the lower of the codes of the two faces.
+  std::vector<std::vector<std::int32_t>> cut_keys;
+};
+
+class Extraction {
+ public:
+  Extraction(Whole& whole, int number, Part& part)
+      : whole_(whole), number_(number), part_(part), tets_(whole.tets.buckets.of(std::size_t(number))) {}
+
+  void run() {
+    take_vertices();
+    take_tets();
+    take_triangles();
+    link_tets();
+    point_vertices_to_tets();
+  }
+
+ private:
+  bool here(FaceLink side) const {
+    return side.is_tet() && whole_.labels[side.tet()] == number_;
+  }
+  FaceLink local_face(FaceLink side) const {
+    return here(side) ? FaceLink::to_tet(whole_.tets.local[side.tet()], side.face()) : FaceLink();
+  }
+  VertexId local_vertex(VertexId v) const {
+    if (whole_.vertex_part[v] != kShared) return whole_.vertices.local[v];
+    const auto& s = part_.shared_vertices;
+    return VertexId(part_.own_vertices) +
+           VertexId(std::lower_bound(s.begin(), s.end(), v) - s.begin());
+  }
+
+  void take_vertices() {
+    const auto own = whole_.vertices.buckets.of(std::size_t(number_));
+    part_.own_vertices = own.size();
+    auto& shared = part_.shared_vertices;
+    for (std::uint32_t t : tets_)
+      for (VertexId v : whole_.mesh.tets[t])
+        if (whole_.vertex_part[v] == kShared) shared.push_back(v);
+    std::sort(shared.begin(), shared.end());
+    shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
+    part_.mesh.resize_vertices(own.size() + shared.size());
+    for (std::size_t i = 0; i < own.size(); ++i) take_vertex(i, VertexId(own[i]), 0);
+    for (std::size_t i = 0; i < shared.size(); ++i)
+      take_vertex(own.size() + i, shared[i], tag::kFrozen);
+  }
+
+  void take_vertex(std::size_t to, VertexId from, Tag extra) {
+    TetMesh& p = part_.mesh;
+    const TetMesh& m = whole_.mesh;
+    p.points[to] = m.points[from];
+    p.sizes[to] = m.sizes[from];
+    p.vertex_tags[to] = Tag(m.vertex_tags[from] | extra);
+    p.vertex_refs[to] = m.vertex_refs[from];
+    p.anchors[to] = m.anchors[from];
+  }
+
+  void take_tets() {
+    TetMesh& p = part_.mesh;
+    p.resize_tets(tets_.size());
+    for (std::size_t i = 0; i < tets_.size(); ++i) {
+      const std::uint32_t t = tets_[i];
+      for (int k = 0; k < 4; ++k) p.tets[i][k] = local_vertex(whole_.mesh.tets[t][k]);
+      p.qualities[i] = whole_.mesh.qualities[t];
+      p.tet_refs[i] = whole_.mesh.tet_refs[t];
+      p.tet_flags[i] = whole_.mesh.tet_flags[t];
+    }
+  }
+
+  /// Shared triangles first, then the part's own, each group in the order of the tets.
+  void take_triangles() {
+    std::vector<TriangleId> own;
+    for (std::uint32_t t : tets_)
+      for (int f = 0; f < 4; ++f) {
+        const FaceLink link = whole_.mesh.links[t][f];
+        if (!link.is_triangle()) continue;
+        const TriangleId id = link.triangle();
+        const Triangle& s = whole_.mesh.triangles[id];
+        const int side = s.sides[0] == FaceLink::to_tet(TetId(t), f) ? 0 : 1;
+        const FaceLink other = s.sides[std::size_t(1 - side)];
+        if (other.is_tet() && !here(other))
+          part_.triangle_of.push_back(id);
+        else if (side == 0 || !other.is_tet())
+          own.push_back(id);
+      }
+    part_.shared_triangles = part_.triangle_of.size();
+    for (TriangleId id : part_.triangle_of) take_triangle(id, tag::kFrozen);
+    for (TriangleId id : own) take_triangle(id, 0);
+  }
+
+  void take_triangle(TriangleId id, Tag extra) {
+    Triangle t = whole_.mesh.triangles[id];
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (here(t.sides[side])) whole_.local_triangle[id][side] = TriangleId(part_.mesh.triangles.size());
+      t.sides[side] = local_face(t.sides[side]);
+    }
+    for (VertexId& v : t.v) v = local_vertex(v);
+    t.tags |= extra;
+    part_.mesh.triangles.push_back(t);
+  }
+
+  void link_tets() {
+    auto& keys = whole_.cut_keys[std::size_t(number_)];
+    for (std::size_t i = 0; i < tets_.size(); ++i)
+      for (int f = 0; f < 4; ++f) {
+        const FaceLink mine = FaceLink::to_tet(TetId(tets_[i]), f);
+        const FaceLink link = whole_.mesh.links[tets_[i]][f];
+        FaceLink& out = part_.mesh.links[i][f];
+        if (link.is_triangle()) {
+          const Triangle& s = whole_.mesh.triangles[link.triangle()];
+          const std::size_t side = s.sides[0] == mine ? 0 : 1;
+          out = FaceLink::to_triangle(whole_.local_triangle[link.triangle()][side]);
+        } else if (here(link)) {
+          out = local_face(link);
+        } else {
+          out = FaceLink::to_cut(std::int32_t(keys.size()));
+          keys.push_back(std::min(mine.code(), link.code()));
+        }
+      }
+  }
+
+  void point_vertices_to_tets() {
+    for (std::size_t i = 0; i < tets_.size(); ++i)
+      for (VertexId v : part_.mesh.tets[i]) part_.mesh.vertex_tets[v] = TetId(i);
+  }
+
+  Whole& whole_;
+  const std::int32_t number_;
+  Part& part_;
+  const std::span<const std::uint32_t> tets_;
+};
+
+/// Finds for each cut the cut of the other part on the same face.
+void pair_cuts(const std::vector<std::vector<std::int32_t>>& cut_keys, std::vector<Part>& parts) {
+  struct Cut {
+    std::int32_t key, part, number;
+  };
+  std::vector<Cut> cuts;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    parts[p].partners.resize(cut_keys[p].size());
+    for (std::size_t k = 0; k < cut_keys[p].size(); ++k)
+      cuts.push_back({cut_keys[p][k], std::int32_t(p), std::int32_t(k)});
+  }
+  parallel_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+    return std::tie(a.key, a.part) < std::tie(b.key, b.part);
+  });
+  for (std::size_t i = 0; i + 1 < cuts.size(); i += 2) {
+    const Cut &a = cuts[i], &b = cuts[i + 1];
+    parts[std::size_t(a.part)].partners[std::size_t(a.number)] = {b.part, b.number};
+    parts[std::size_t(b.part)].partners[std::size_t(b.number)] = {a.part, a.number};
+  }
+}
+
+}  // namespace
+
+std::vector<Part> extract_parts(const TetMesh& mesh, const std::vector<std::int32_t>& labels,
+                                int parts) {
+  std::vector<std::int32_t> vertex_part = vertex_parts(mesh, labels);
+  Whole whole{mesh,
+              labels,
+              Groups(labels, parts),
+              Groups(vertex_part, parts),
+              std::move(vertex_part),
+              std::vector<std::array<TriangleId, 2>>(mesh.triangles.size(), {kNone, kNone}),
+              std::vector<std::vector<std::int32_t>>(std::size_t(parts))};
+  std::vector<Part> result(static_cast<std::size_t>(parts));
+  parallel_tasks(result.size(),
+                 [&](std::size_t p) { Extraction(whole, int(p), result[p]).run(); });
+  pair_cuts(whole.cut_keys, result);
+  return result;
+}
+
+}  // namespace cavea

@@ -1,0 +1,24 @@
+#include "cavea/pass/cycle.h"
+
+#include "cavea/base/error.h"
+#include "cavea/pass/passes.h"
+
+namespace cavea {
+
+CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings) {
+  // Fewer changes than this share of the tets in a sweep: the rest is left to the next round.
+  constexpr double kSettled = 0.001;
+  PartState state(mesh, surface, settings);
+  for (int sweep = 0; sweep < settings.sweeps; ++sweep) {
+    if (settings.cancel && settings.cancel->load(std::memory_order_relaxed)) throw Cancelled();
+    std::int64_t changes = 0;
+    if (settings.split) changes += split_pass(state);
+    if (settings.collapse) changes += collapse_pass(state);
+    if (settings.swap) changes += swap_pass(state);
+    if (settings.move) changes += move_pass(state);
+    if (double(changes) <= kSettled * double(state.editor.living_tets()) || state.result.full) break;
+  }
+  return state.result;
+}
+
+}  // namespace cavea

@@ -1,0 +1,39 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+
+#include "cavea/cavity/mesh_editor.h"
+#include "cavea/operator/context.h"
+
+namespace cavea {
+
+/// What one run of the cycle does to a part.
+struct CycleSettings {
+  Limits limits;
+  bool split = true, collapse = true, swap = true, move = true;
+  /// Split surface edges whose middle is farther from the ideal surface than the tolerance, too, down
+  /// to this Euclidean length; 0: never.
+  double shortest_fitted = 0;
+  int sweeps = 6;
+  /// Stop splitting when the part has this many tets: it is then partitioned anew.
+  std::int64_t most_tets = kMaxTets;
+  /// Tets better than this are not asked for swaps.
+  double swap_ceiling = 1;
+  /// Tets worse than this are also offered collapses for the sake of quality.
+  double repair_below = 0;
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+struct CycleResult {
+  VerdictTable verdicts;
+  std::int64_t changes = 0;  ///< accepted operations
+  bool full = false;         ///< stopped splitting at most_tets
+};
+
+/// Runs sweeps of split, collapse, swap and relocation (paper, section 4.3) on one mesh until nothing
+/// is left to do or `sweeps` are done. Serial and a function of the mesh and the settings alone. Only
+/// tets flagged kAsk... are asked; the flags that remain say what is still open.
+/// \throw Cancelled
+CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings);
+
+}  // namespace cavea

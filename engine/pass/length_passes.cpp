@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <tuple>
+
+#include "cavea/operator/edge_collapse.h"
+#include "cavea/operator/edge_split.h"
+#include "cavea/pass/passes.h"
+
+namespace cavea {
+namespace {
+
+/// An edge to treat, seen from one of its tets.
+struct EdgeTask {
+  float urgency;  ///< treated from the largest down
+  VertexId a, b;  ///< a < b
+  TetId tet;
+};
+
+void sort_tasks(std::vector<EdgeTask>& tasks) {
+  std::sort(tasks.begin(), tasks.end(), [](const EdgeTask& x, const EdgeTask& y) {
+    return std::tuple(-x.urgency, x.a, x.b, x.tet) < std::tuple(-y.urgency, y.a, y.b, y.tet);
+  });
+}
+
+/// Calls f(tet, local i, local j, a, b) for the edges of tets that carry the flag.
+template <class F>
+void for_each_asked_edge(const TetMesh& m, F&& f) {
+  for (std::size_t t = 0; t < m.tets.size(); ++t) {
+    if (!(m.tet_flags[t] & tet_flag::kAskLength) || !m.tet_alive(TetId(t))) continue;
+    for (const auto& e : kEdgeVertices) f(TetId(t), e[0], e[1]);
+  }
+}
+
+/// How far the middle of a surface edge is from the ideal surface, in tolerances.
+double misfit(const PartState& s, const Triangle& t, int k) {
+  const OperatorContext& c = s.context;
+  const VertexId a = t.v[(k + 1) % 3], b = t.v[(k + 2) % 3];
+  if (distance(c.point(a), c.point(b)) < s.settings.shortest_fitted) return 0;
+  const Anchor hints[2] = {c.mesh.anchors[a], c.mesh.anchors[b]};
+  const Vec3 middle = (c.point(a) + c.point(b)) / 2;
+  const SurfacePoint at = t.edge_tag[k] & tag::kFeature ? c.surface.place_on_curve(middle, hints)
+                                                        : c.surface.place(middle, t.patch, hints);
+  return at.anchor.facet == kNone ? 0 : std::sqrt(at.distance2) / c.limits.tolerance;
+}
+
+void add_misfits(const PartState& s, TetId tet, std::vector<EdgeTask>& tasks) {
+  const TetMesh& m = s.context.mesh;
+  for (int f = 0; f < 4; ++f) {
+    const FaceLink link = m.links[tet][f];
+    if (!link.is_triangle()) continue;
+    const Triangle& t = m.triangles[link.triangle()];
+    for (int k = 0; k < 3; ++k)
+      if (const double x = misfit(s, t, k); x > 1) {
+        const VertexId a = t.v[(k + 1) % 3], b = t.v[(k + 2) % 3];
+        tasks.push_back({float(s.context.limits.long_edge * x), std::min(a, b), std::max(a, b), tet});
+      }
+  }
+}
+
+std::vector<EdgeTask> split_tasks(const PartState& s) {
+  const TetMesh& m = s.context.mesh;
+  const Limits& limits = s.context.limits;
+  std::vector<EdgeTask> tasks;
+  for_each_asked_edge(m, [&](TetId t, int i, int j) {
+    const VertexId a = std::min(m.tets[t][i], m.tets[t][j]), b = std::max(m.tets[t][i], m.tets[t][j]);
+    if (const double length = s.context.length(a, b); length > limits.long_edge)
+      tasks.push_back({float(length), a, b, t});
+    if (i == 0 && j == 1 && s.settings.shortest_fitted > 0) add_misfits(s, t, tasks);
+  });
+  sort_tasks(tasks);
+  return tasks;
+}
+
+std::vector<EdgeTask> collapse_tasks(const PartState& s) {
+  const TetMesh& m = s.context.mesh;
+  std::vector<EdgeTask> tasks;
+  for_each_asked_edge(m, [&](TetId t, int i, int j) {
+    const VertexId a = std::min(m.tets[t][i], m.tets[t][j]), b = std::max(m.tets[t][i], m.tets[t][j]);
+    if (const double length = s.context.length(a, b); length < s.context.limits.short_edge)
+      tasks.push_back({float(-length), a, b, t});
+  });
+  sort_tasks(tasks);
+  return tasks;
+}
+
+/// Gathers the shell of a task's edge from vertex p to q; false if its tet has it no longer.
+bool find_edge(PartState& s, const EdgeTask& task, VertexId p, VertexId q) {
+  const TetMesh& m = s.context.mesh;
+  if (!m.tet_alive(task.tet)) return false;
+  const int i = m.local_index(task.tet, p), j = m.local_index(task.tet, q);
+  if (i == 4 || j == 4) return false;
+  gather_shell(m, task.tet, i, j, s.context.shell);
+  return true;
+}
+
+/// Calls work(task) for each task whose edge still stands, once an edge unless it is refused for a tet
+/// that has changed since.
+template <class F>
+std::int64_t for_each_task(PartState& s, const std::vector<EdgeTask>& tasks, F&& work) {
+  std::int64_t done = 0;
+  VertexId last_a = kNone, last_b = kNone;
+  for (const EdgeTask& task : tasks) {
+    if (task.a == last_a && task.b == last_b) continue;
+    if (!find_edge(s, task, task.a, task.b)) continue;
+    last_a = task.a, last_b = task.b;
+    done += work(task);
+  }
+  return done;
+}
+
+}  // namespace
+
+std::int64_t split_pass(PartState& s) {
+  const std::vector<EdgeTask> tasks = split_tasks(s);
+  return for_each_task(s, tasks, [&](const EdgeTask&) {
+    if (s.editor.living_tets() >= s.settings.most_tets) {
+      s.result.full = true;
+      return false;
+    }
+    if (!s.count(Operator::kEdgeSplit, edge_split(s.context, s.editor.next_vertex(), s.cavity)))
+      return false;
+    s.commit();
+    return true;
+  });
+}
+
+std::int64_t collapse_pass(PartState& s) {
+  const std::vector<EdgeTask> tasks = collapse_tasks(s);
+  for (std::uint8_t& flags : s.mesh().tet_flags) flags &= std::uint8_t(~tet_flag::kAskLength);
+  return for_each_task(s, tasks, [&](const EdgeTask& task) {
+    for (int way = 0; way < 2; ++way) {
+      if (way == 1) find_edge(s, task, task.b, task.a);
+      if (s.count(Operator::kEdgeCollapse, edge_collapse(s.context, false, s.cavity))) {
+        s.commit();
+        return true;
+      }
+    }
+    return false;
+  });
+}
+
+}  // namespace cavea

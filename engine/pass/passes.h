@@ -1,0 +1,36 @@
+#pragma once
+#include "cavea/pass/cycle.h"
+
+namespace cavea {
+
+/// What the passes over one part share.
+struct PartState {
+  PartState(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& s)
+      : editor(mesh), context(mesh, surface), settings(s) {
+    context.limits = s.limits;
+  }
+  TetMesh& mesh() { return editor.mesh(); }
+  /// Counts a verdict; true if it is accept.
+  bool count(Operator o, Verdict v) {
+    result.verdicts.add(o, v);
+    return v == Verdict::kAccept;
+  }
+  void commit() {
+    editor.commit(cavity);
+    ++result.changes;
+  }
+
+  MeshEditor editor;
+  OperatorContext context;
+  CycleSettings settings;
+  Cavity cavity;
+  CycleResult result;
+};
+
+/// Each returns the number of accepted operations.
+std::int64_t split_pass(PartState& state);
+std::int64_t collapse_pass(PartState& state);
+std::int64_t swap_pass(PartState& state);
+std::int64_t move_pass(PartState& state);
+
+}  // namespace cavea

@@ -1,0 +1,116 @@
+#include <algorithm>
+
+#include "cavea/operator/edge_collapse.h"
+#include "cavea/operator/edge_swap.h"
+#include "cavea/operator/face_swap.h"
+#include "cavea/operator/relocate.h"
+#include "cavea/pass/passes.h"
+
+namespace cavea {
+namespace {
+
+/// The quality worklist of one part: tets to ask, worst never forgotten.
+class SwapQueue {
+ public:
+  explicit SwapQueue(PartState& s) : s_(s), m_(s.mesh()) {
+    for (std::size_t t = 0; t < m_.tets.size(); ++t)
+      if (m_.tet_alive(TetId(t)) && (m_.tet_flags[t] & tet_flag::kAskSwap)) queue_.push_back(TetId(t));
+  }
+
+  std::int64_t run() {
+    for (std::size_t i = 0; i < queue_.size(); ++i) {
+      const TetId t = queue_[i];
+      if (!m_.tet_alive(t) || !(m_.tet_flags[t] & tet_flag::kAskSwap)) continue;
+      m_.tet_flags[t] &= std::uint8_t(~tet_flag::kAskSwap);
+      ask(t);
+    }
+    return done_;
+  }
+
+ private:
+  bool asked_later(TetId t) const { return m_.tet_flags[t] & tet_flag::kAskSwap; }
+
+  /// Of the tets of a shell the worst asks, if its turn is still to come.
+  bool worse_will_ask(TetId t, const std::vector<TetId>& tets) const {
+    TetId worst = t;
+    for (TetId x : tets)
+      if (m_.qualities[x] < m_.qualities[worst]) worst = x;
+    return worst != t && asked_later(worst);
+  }
+
+  void committed() {
+    s_.commit();
+    ++done_;
+    for (TetId t : s_.editor.created()) queue_.push_back(t);
+  }
+
+  void ask(TetId t) {
+    const double quality = m_.qualities[t];
+    if (quality > s_.settings.swap_ceiling) return;
+    for (const auto& e : kEdgeVertices)
+      if (swap_edge(t, e[0], e[1])) return;
+    for (int f = 0; f < 4; ++f)
+      if (swap_face(t, f)) return;
+    if (quality < s_.settings.repair_below) collapse_for_quality(t);
+  }
+
+  bool swap_edge(TetId t, int i, int j) {
+    if (s_.context.frozen_edge(m_.tets[t][i], m_.tets[t][j])) return false;
+    gather_shell(m_, t, i, j, s_.context.shell);
+    if (worse_will_ask(t, s_.context.shell.tets)) return false;
+    if (!s_.count(Operator::kEdgeSwap, edge_swap(s_.context, s_.cavity))) return false;
+    committed();
+    return true;
+  }
+
+  bool swap_face(TetId t, int f) {
+    const FaceLink other = m_.links[t][f];
+    if (!other.is_tet()) return false;
+    if (m_.qualities[other.tet()] < m_.qualities[t] && asked_later(other.tet())) return false;
+    if (!s_.count(Operator::kFaceSwap, face_swap(s_.context, t, f, s_.cavity))) return false;
+    committed();
+    return true;
+  }
+
+  bool collapse_for_quality(TetId t) {
+    for (const auto& e : kEdgeVertices)
+      for (int way = 0; way < 2; ++way) {
+        gather_shell(m_, t, e[way], e[1 - way], s_.context.shell);
+        if (!s_.count(Operator::kEdgeCollapse, edge_collapse(s_.context, true, s_.cavity))) continue;
+        committed();
+        return true;
+      }
+    return false;
+  }
+
+  PartState& s_;
+  TetMesh& m_;
+  std::vector<TetId> queue_;
+  std::int64_t done_ = 0;
+};
+
+}  // namespace
+
+std::int64_t swap_pass(PartState& s) { return SwapQueue(s).run(); }
+
+std::int64_t move_pass(PartState& s) {
+  TetMesh& m = s.mesh();
+  std::vector<char> asked(m.points.size(), 0);
+  for (std::size_t t = 0; t < m.tets.size(); ++t) {
+    if (!m.tet_alive(TetId(t)) || !(m.tet_flags[t] & tet_flag::kAskMove)) continue;
+    m.tet_flags[t] &= std::uint8_t(~tet_flag::kAskMove);
+    for (VertexId v : m.tets[t]) asked[v] = 1;
+  }
+  std::int64_t done = 0;
+  NewVertex to;
+  for (std::size_t v = 0; v < asked.size(); ++v) {
+    if (!asked[v] || !m.vertex_alive(VertexId(v))) continue;
+    if (!s.count(Operator::kRelocate, relocate(s.context, VertexId(v), to))) continue;
+    s.editor.move(VertexId(v), to, s.context.ball.tets, s.context.qualities);
+    ++s.result.changes;
+    ++done;
+  }
+  return done;
+}
+
+}  // namespace cavea

@@ -1,0 +1,56 @@
+#include "cavea/remesh/options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cavea/base/error.h"
+#include "cavea/remesh/resolved.h"
+
+namespace cavea {
+namespace {
+
+void require_positive(const std::optional<double>& value, const char* name) {
+  if (value && !(std::isfinite(*value) && *value > 0))
+    throw OptionError(fmt::format("{} must be a positive number, not {}", name, *value));
+}
+
+void require_range(double value, double low, double high, const char* name) {
+  if (!(value >= low && value <= high))
+    throw OptionError(fmt::format("{} must be between {} and {}, not {}", name, low, high, value));
+}
+
+}  // namespace
+
+void validate(const Options& o) {
+  require_positive(o.hausd, "hausd");
+  require_positive(o.hmin, "hmin");
+  require_positive(o.hmax, "hmax");
+  require_positive(o.hsiz, "hsiz");
+  if (o.hsiz && (o.hmin || o.hmax)) throw OptionError("hsiz excludes hmin and hmax");
+  if (o.hmin && o.hmax && *o.hmin > *o.hmax)
+    throw OptionError(fmt::format("hmin {} is larger than hmax {}", *o.hmin, *o.hmax));
+  if (!(std::isfinite(o.hgrad) && o.hgrad >= 1))
+    throw OptionError(fmt::format("hgrad must be a number of at least 1, not {}", o.hgrad));
+  require_range(o.angle, 0, 180, "angle");
+  require_range(o.min_quality, 0, 1, "min_quality");
+  require_range(o.min_conform, 0, 100, "min_conform");
+  if (o.threads < 0) throw OptionError(fmt::format("threads must be at least 1, not {}", o.threads));
+}
+
+ResolvedOptions resolve(const Options& o, double box_diagonal) {
+  // Shares of the box diagonal, so that defaults need no knowledge of the mesh's scale.
+  constexpr double kHausd = 0.001, kHmin = 0.001, kHmax = 0.1;
+  ResolvedOptions r;
+  r.hausd = o.hausd.value_or(kHausd * box_diagonal);
+  r.hgrad = o.hgrad;
+  if (o.hsiz) {
+    r.hmin = r.hmax = *o.hsiz;
+    return r;
+  }
+  r.hmax = o.hmax.value_or(std::max(kHmax * box_diagonal, o.hmin.value_or(0)));
+  r.hmin = o.hmin.value_or(std::min(kHmin * box_diagonal, r.hmax));
+  return r;
+}
+
+}  // namespace cavea

@@ -1,0 +1,59 @@
+#include "cavea/remesh/recipe.h"
+
+namespace cavea {
+namespace {
+
+/// Operators keep this share of the tolerance, so that what lies between their sample points stays
+/// within all of it.
+constexpr double kOperatorShare = 0.7;
+
+/// Surface edges of at least this many hmin are split where they do not fit the surface.
+constexpr double kFittedEdge = 1.5;
+
+CycleSettings base(const ResolvedOptions& o) {
+  CycleSettings s;
+  s.limits.tolerance = kOperatorShare * o.hausd;
+  s.shortest_fitted = o.uniform() ? 0 : kFittedEdge * o.hmin;
+  return s;
+}
+
+/// Lengths outside the paper's rough bounds only (section 4.3, step 4), with loss of quality allowed.
+Phase rough(const ResolvedOptions& o) {
+  Phase p{"rough", base(o), 8, 0.05, 8};
+  p.cycle.limits.long_edge = 2.0;
+  p.cycle.limits.short_edge = 0.4;
+  p.cycle.limits.quality_ratio = 0.3;
+  p.cycle.limits.quality_floor = 0.1;
+  p.cycle.sweeps = 4;
+  p.cycle.swap_ceiling = 0.5;
+  p.cycle.repair_below = 0.1;
+  return p;
+}
+
+Phase fine(const ResolvedOptions& o) {
+  Phase p{"fine", base(o), 3, 0.02, 8};
+  p.cycle.limits.shortest_made = 0.6;
+  p.cycle.limits.quality_ratio = 0.7;
+  p.cycle.limits.quality_floor = 0.3;
+  p.cycle.sweeps = 5;
+  p.cycle.swap_ceiling = 0.8;
+  p.cycle.repair_below = 0.2;
+  return p;
+}
+
+Phase polish(const ResolvedOptions& o) {
+  Phase p{"polish", base(o), 2, 0.005, 0};
+  p.cycle.limits.shortest_made = 0.6;
+  p.cycle.limits.quality_ratio = 0.9;
+  p.cycle.limits.quality_floor = 0.4;
+  p.cycle.sweeps = 4;
+  p.cycle.repair_below = 0.35;
+  p.resize = false;
+  return p;
+}
+
+}  // namespace
+
+std::vector<Phase> recipe(const ResolvedOptions& o) { return {rough(o), fine(o), polish(o)}; }
+
+}  // namespace cavea

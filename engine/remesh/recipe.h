@@ -1,0 +1,25 @@
+#pragma once
+#include <vector>
+
+#include "cavea/pass/cycle.h"
+#include "cavea/remesh/resolved.h"
+
+namespace cavea {
+
+/// One phase of the recipe: rounds of the same settings until little changes.
+struct Phase {
+  const char* name;
+  CycleSettings cycle;
+  int rounds = 1;
+  /// Ends before its last round when a round changes fewer than this share of the tets.
+  double settled = 0.01;
+  /// A part may grow this many times before the mesh is partitioned anew; 0: without bound.
+  double growth = 0;
+  bool resize = true;  ///< sets the wanted sizes anew before each round
+};
+
+/// The phases of section 4.3: rough sampling of the surface, rough and fine adaptation to the sizes,
+/// and a last polish of quality.
+std::vector<Phase> recipe(const ResolvedOptions& options);
+
+}  // namespace cavea

@@ -1,0 +1,140 @@
+#include "cavea/remesh/remesh.h"
+
+#include <fmt/format.h>
+
+#include "cavea/base/error.h"
+#include "cavea/base/memory.h"
+#include "cavea/base/parallel.h"
+#include "cavea/base/timer.h"
+#include "cavea/field/wanted_sizes.h"
+#include "cavea/mesh/check.h"
+#include "cavea/mesh/compact.h"
+#include "cavea/part/round.h"
+#include "cavea/remesh/recipe.h"
+#include "cavea/remesh/resolved.h"
+#include "cavea/surface/features.h"
+#include "cavea/surface/surface_model.h"
+
+namespace cavea {
+namespace {
+
+/// How far the smooth model may leave the input's triangles, in tolerances.
+constexpr double kMaxBulge = 3;
+
+/// One run of remesh(): the mesh it works on and what it reports.
+class Run {
+ public:
+  Run(const TetMesh& input, const SizeField& field, const Options& options)
+      : mesh_(input), field_(field), options_(options) {
+    compact(mesh_);
+    r_ = resolve(options, box_diagonal(mesh_));
+  }
+
+  void operator()() {
+    timed("analysis", [&] { analyse(); });
+    for (const Phase& phase : recipe(r_)) timed(phase.name, [&] { run_phase(phase); });
+    timed("measurement", [&] { measure(); });
+  }
+
+  TetMesh mesh_;
+  Report report_;
+
+ private:
+  template <class F>
+  void timed(const char* name, F&& f) {
+    Timer timer;
+    tell(name, 0);
+    f();
+    report_.phases.push_back({name, timer.seconds()});
+  }
+
+  void tell(const char* phase, int round) const {
+    if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) throw Cancelled();
+    if (options_.progress)
+      options_.progress({phase, round, std::int64_t(mesh_.tets.size()), timer_.seconds()});
+  }
+
+  void analyse() {
+    report_.before.counts = count(mesh_);
+    report_.before.quality = quality_statistics(mesh_);
+    classify_features(mesh_, {options_.angle, options_.detect_ridges});
+    surface_.emplace(mesh_, SurfaceModel::Settings{r_.hausd, kMaxBulge * r_.hausd, r_.hmin, r_.hmax});
+    for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
+    resize();
+    report_.before.lengths = length_statistics(mesh_);
+  }
+
+  void resize() {
+    set_wanted_sizes(
+        mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_,
+        {r_.hmin, r_.hmax, r_.hgrad});
+  }
+
+  void run_phase(const Phase& phase) {
+    CycleSettings settings = phase.cycle;
+    settings.cancel = options_.cancel;
+    for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
+    for (int round = 1; round <= phase.rounds; ++round) {
+      tell(phase.name, round);
+      if (phase.resize && round > 1) resize();
+      if (phase.growth > 0)
+        settings.most_tets = std::int64_t(phase.growth * double(mesh_.tets.size()) /
+                                          part_count(std::int64_t(mesh_.tets.size()))) + 10000;
+      const RoundResult result = run_round(mesh_, *surface_, settings, &report_.part_of_tet);
+      verdicts_ += result.cycle.verdicts;
+      if (!result.cycle.full &&
+          double(result.cycle.changes) < phase.settled * double(mesh_.tets.size()))
+        break;
+    }
+  }
+
+  void measure() {
+    report_.after = {count(mesh_), quality_statistics(mesh_), length_statistics(mesh_)};
+    for (int o = 0; o < kOperators; ++o)
+      for (int v = 0; v < kVerdicts; ++v)
+        if (const std::int64_t n = verdicts_.count[std::size_t(o)][std::size_t(v)])
+          report_.verdicts.push_back({name(Operator(o)), name(Verdict(v)), n});
+    report_.hausd = r_.hausd, report_.hmin = r_.hmin, report_.hmax = r_.hmax, report_.hgrad = r_.hgrad;
+    set_targets();
+    report_.seconds = timer_.seconds();
+    report_.tets_per_second = double(report_.after.counts.tets) / report_.seconds;
+    report_.peak_resident_bytes = peak_resident_bytes();
+  }
+
+  void set_targets() {
+    auto place = [](const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); };
+    const QualityStatistics& q = report_.after.quality;
+    const LengthStatistics& l = report_.after.lengths;
+    auto add = [&](const char* name, double wanted, double measured, bool met, const Vec3& at) {
+      report_.targets.push_back({name, wanted, measured, met, met ? "" : place(at)});
+    };
+    add("worst quality", options_.min_quality, q.worst, q.worst >= options_.min_quality, q.worst_place);
+    add("conforming lengths", options_.min_conform, l.conforming_percent(),
+        l.conforming_percent() >= options_.min_conform, l.longest_place);
+  }
+
+  const SizeField& field_;
+  const Options& options_;
+  ResolvedOptions r_;
+  std::optional<SurfaceModel> surface_;
+  VerdictTable verdicts_;
+  Timer timer_;
+};
+
+}  // namespace
+
+Report remesh(TetMesh& mesh, const SizeField& field, const Options& options) {
+  validate(options);
+  const int threads = options.threads > 0 ? options.threads : default_threads();
+  Report report;
+  run_in_arena(threads, [&] {
+    Run run(mesh, field, options);
+    run();
+    report = std::move(run.report_);
+    mesh = std::move(run.mesh_);
+  });
+  report.threads = threads;
+  return report;
+}
+
+}  // namespace cavea

@@ -1,0 +1,38 @@
+#include "cavea/surface/bezier.h"
+
+namespace cavea {
+
+Vec3 BezierCurve::at(double t) const {
+  const double s = 1 - t;
+  return s * s * s * points[0] + 3 * s * s * t * points[1] + 3 * s * t * t * points[2] +
+         t * t * t * points[3];
+}
+
+Vec3 BezierTriangle::at(double u, double v) const {
+  const double w = 1 - u - v;
+  // Edge 0 runs from a1 (u) to a2 (v), edge 1 from a2 (v) to a0 (w), edge 2 from a0 (w) to a1 (u).
+  return w * w * w * corner[0] + u * u * u * corner[1] + v * v * v * corner[2] +
+         3 * u * u * v * edge[0][0] + 3 * u * v * v * edge[0][1] + 3 * v * v * w * edge[1][0] +
+         3 * v * w * w * edge[1][1] + 3 * w * w * u * edge[2][0] + 3 * w * u * u * edge[2][1] +
+         6 * u * v * w * center;
+}
+
+Vec3 BezierTriangle::normal(double u, double v) const {
+  const double w = 1 - u - v;
+  // Derivatives along a0->a1 and a0->a2, each three times a quadratic of control differences.
+  const Vec3 du = w * w * (edge[2][0] - corner[0]) + u * u * (corner[1] - edge[2][1]) +
+                  v * v * (edge[0][1] - edge[1][0]) + 2 * w * u * (edge[2][1] - edge[2][0]) +
+                  2 * u * v * (edge[0][0] - center) + 2 * v * w * (center - edge[1][1]);
+  const Vec3 dv = w * w * (edge[1][1] - corner[0]) + u * u * (edge[0][0] - edge[2][1]) +
+                  v * v * (corner[2] - edge[1][0]) + 2 * w * u * (center - edge[2][0]) +
+                  2 * u * v * (edge[0][1] - center) + 2 * v * w * (edge[1][0] - edge[1][1]);
+  return cross(du, dv);
+}
+
+void BezierTriangle::set_center() {
+  const Vec3 m = (edge[0][0] + edge[0][1] + edge[1][0] + edge[1][1] + edge[2][0] + edge[2][1]) / 6;
+  const Vec3 v = (corner[0] + corner[1] + corner[2]) / 3;
+  center = m + (m - v) / 2;
+}
+
+}  // namespace cavea

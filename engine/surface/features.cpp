@@ -1,0 +1,152 @@
+#include "cavea/surface/features.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "cavea/surface/edges.h"
+
+namespace cavea {
+namespace {
+
+/// Union-find whose representatives are the smallest members.
+class Components {
+ public:
+  explicit Components(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  std::int32_t find(std::int32_t a) {
+    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
+    return a;
+  }
+  void join(std::int32_t a, std::int32_t b) {
+    a = find(a), b = find(b);
+    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::int32_t> parent_;
+};
+
+constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
+
+/// What meets at a vertex: its feature edges' other ends (the first two), their kinds, their number.
+struct FeatureStar {
+  std::array<VertexId, 2> ends{kNone, kNone};
+  std::array<Tag, 2> kinds{};
+  int degree = 0;
+  int fans = 0;  ///< sheets of triangles around the vertex, joined through edges
+
+  void add(VertexId end, Tag kind) {
+    if (degree < 2) ends[degree] = end, kinds[degree] = kind;
+    ++degree;
+  }
+};
+
+Vec3 triangle_normal(const TetMesh& m, const Triangle& t) {
+  return normalized(cross(m.points[t.v[1]] - m.points[t.v[0]], m.points[t.v[2]] - m.points[t.v[0]]));
+}
+
+Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end, double cos_ridge,
+              bool detect) {
+  Tag tags = 0;
+  for (const EdgeSide* s = begin; s != end; ++s) tags |= m.triangles[s->triangle].edge_tag[s->k];
+  if (end - begin != 2) return Tag(tags | tag::kNonManifold);
+  const Triangle& t0 = m.triangles[begin[0].triangle];
+  const Triangle& t1 = m.triangles[begin[1].triangle];
+  if (t0.ref != t1.ref) tags |= tag::kReferenceEdge;
+  const Vec3 n0 = triangle_normal(m, t0), n1 = triangle_normal(m, t1);
+  // A triangle of zero area has no normal and says nothing about sharpness.
+  const bool both = norm2(n0) > 0 && norm2(n1) > 0;
+  if (detect && both && dot(n0, n1) < cos_ridge) tags |= tag::kRidge;
+  return tags;
+}
+
+void tag_edges(TetMesh& m, const std::vector<EdgeSide>& sides, const FeatureOptions& options) {
+  const double cos_ridge = std::cos(options.angle * std::numbers::pi / 180);
+  for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+    const Tag tags = edge_tags(m, begin, end, cos_ridge, options.detect_ridges);
+    std::int32_t ref = 0;
+    for (const EdgeSide* s = begin; s != end; ++s) {
+      const std::int32_t r = m.triangles[s->triangle].edge_ref[s->k];
+      if (r != 0) ref = r;
+    }
+    for (const EdgeSide* s = begin; s != end; ++s) {
+      m.triangles[s->triangle].edge_tag[s->k] = tags;
+      m.triangles[s->triangle].edge_ref[s->k] = ref;
+    }
+  });
+}
+
+std::vector<FeatureStar> gather_stars(const TetMesh& m, const std::vector<EdgeSide>& sides) {
+  std::vector<FeatureStar> stars(m.points.size());
+  Components corners(3 * m.triangles.size());  // (triangle, local vertex) pairs joined across edges
+  auto corner = [&](const EdgeSide& s, VertexId v) {
+    const auto& t = m.triangles[s.triangle].v;
+    return 3 * s.triangle + (t[0] == v ? 0 : t[1] == v ? 1 : 2);
+  };
+  for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+    const Tag kind = m.triangles[begin->triangle].edge_tag[begin->k] & tag::kFeature;
+    if (kind) {
+      stars[begin->a].add(begin->b, kind);
+      stars[begin->b].add(begin->a, kind);
+    }
+    for (const EdgeSide* s = begin + 1; s < end; ++s)
+      for (VertexId v : {s->a, s->b}) corners.join(corner(*begin, v), corner(*s, v));
+  });
+  for (std::size_t t = 0; t < m.triangles.size(); ++t)
+    if (m.triangles[t].alive())
+      for (int k = 0; k < 3; ++k)
+        if (corners.find(std::int32_t(3 * t + k)) == std::int32_t(3 * t + k))
+          ++stars[m.triangles[t].v[k]].fans;
+  return stars;
+}
+
+bool is_corner(const TetMesh& m, VertexId v, const FeatureStar& star, double cos_turn) {
+  if (star.fans > 1 || star.degree == 1 || star.degree > 2) return true;
+  if (star.degree == 0) return false;
+  if ((star.kinds[0] & star.kinds[1]) == 0) return true;
+  const Vec3 in = normalized(m.points[v] - m.points[star.ends[0]]);
+  const Vec3 out = normalized(m.points[star.ends[1]] - m.points[v]);
+  return dot(in, out) < cos_turn;
+}
+
+void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars, double angle) {
+  const double cos_turn = std::cos(angle * std::numbers::pi / 180);
+  for (std::size_t v = 0; v < stars.size(); ++v) {
+    const FeatureStar& star = stars[v];
+    if (star.fans == 0) continue;
+    m.vertex_tags[v] |= tag::kSurface;
+    for (int k = 0; k < std::min(star.degree, 2); ++k)
+      m.vertex_tags[v] |= Tag(star.kinds[k] & kOnCurve);
+    if (is_corner(m, VertexId(v), star, cos_turn)) m.vertex_tags[v] |= tag::kCorner;
+  }
+}
+
+int number_patches(TetMesh& m, const std::vector<EdgeSide>& sides) {
+  Components patches(m.triangles.size());
+  for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+    if (end - begin != 2 || (m.triangles[begin->triangle].edge_tag[begin->k] & tag::kFeature)) return;
+    patches.join(begin[0].triangle, begin[1].triangle);
+  });
+  std::vector<std::int32_t> number(m.triangles.size(), kNone);
+  int count = 0;
+  for (std::size_t t = 0; t < m.triangles.size(); ++t) {
+    if (!m.triangles[t].alive()) continue;
+    std::int32_t& n = number[patches.find(std::int32_t(t))];
+    if (n == kNone) n = count++;
+    m.triangles[t].patch = n;
+  }
+  return count;
+}
+
+}  // namespace
+
+int classify_features(TetMesh& mesh, const FeatureOptions& options) {
+  const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles);
+  tag_edges(mesh, sides, options);
+  tag_vertices(mesh, gather_stars(mesh, sides), options.angle);
+  return number_patches(mesh, sides);
+}
+
+}  // namespace cavea

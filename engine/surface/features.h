@@ -1,0 +1,18 @@
+#pragma once
+#include "cavea/mesh/tet_mesh.h"
+
+namespace cavea {
+
+struct FeatureOptions {
+  double angle = 45;          ///< degrees between the normals of two triangles above which a ridge
+  bool detect_ridges = true;  ///< false: only the ridges that the mesh carries
+};
+
+/// Classifies the surface of a mesh (paper, section 3.1): tags ridges by angle, corners (ends of one
+/// or of three and more feature edges, sharp turns of a feature curve, meetings of curves of different
+/// kinds, pinched vertices), feature vertices; numbers the smooth patches (Triangle::patch): pieces
+/// connected through edges that are no features.
+/// \return the number of patches.
+int classify_features(TetMesh& mesh, const FeatureOptions& options);
+
+}  // namespace cavea

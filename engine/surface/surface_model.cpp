@@ -1,0 +1,187 @@
+#include "cavea/surface/surface_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cavea/base/error.h"
+#include "cavea/geometry/closest.h"
+
+namespace cavea {
+namespace {
+
+/// Fixed-point steps that move a flat projection to the nearest point of the curved patch.
+constexpr int kCurvedSteps = 2;
+
+}  // namespace
+
+/// The snapshot's corner that an anchor stands on, or none.
+std::int32_t SurfaceModel::corner_vertex(const Anchor& a) const {
+  if (a.facet < 0) return kNone;
+  const int k = a.u == 0 && a.v == 0 ? 0 : a.u == 1 ? 1 : a.v == 1 ? 2 : 3;
+  if (k == 3) return kNone;
+  const std::int32_t v = facets_[a.facet][k];
+  return vertex_corner_[v] ? v : kNone;
+}
+
+template <class F>
+void SurfaceModel::for_each_start(const Anchor& anchor, int patch, F&& f) const {
+  if (anchor.facet == kNone) return;
+  if (is_curve(anchor)) {
+    const CurveEdge& c = curves_[-2 - anchor.facet];
+    for (int i = 0; i < c.facet_count; ++i) {
+      const std::int32_t facet = curve_facets_[c.first_facet + i];
+      if (facet_patch_[facet] == patch) f(facet);
+    }
+    return;
+  }
+  if (const std::int32_t v = corner_vertex(anchor); v != kNone) {
+    for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i)
+      if (facet_patch_[vertex_facets_[i]] == patch) f(vertex_facets_[i]);
+    return;
+  }
+  if (facet_patch_[anchor.facet] == patch) f(anchor.facet);
+}
+
+SurfaceModel::WalkResult SurfaceModel::walk(const Vec3& guess, std::int32_t start) const {
+  auto on = [&](std::int32_t f) {
+    const auto& k = facets_[f];
+    const ClosestOnTriangle c = closest_on_triangle(guess, points_[k[0]], points_[k[1]], points_[k[2]]);
+    return WalkResult{f, c.u, c.v, c.distance2};
+  };
+  auto inside_patch = [&](std::int32_t f, int k) {
+    return facet_curve_[f][k] == kNone ? smooth_neighbors_[f][k] : kNone;
+  };
+  WalkResult best = on(start);
+  for (int step = 0; step < kMaxWalk; ++step) {
+    WalkResult next = best;
+    auto consider = [&](std::int32_t f) {
+      if (f == kNone) return;
+      const WalkResult r = on(f);
+      if (r.distance2 < next.distance2) next = r;
+    };
+    const double w = 1 - best.u - best.v;
+    const bool at0 = w <= 0, at1 = best.u <= 0, at2 = best.v <= 0;  // on the edge opposite corner k
+    if (at0) consider(inside_patch(best.facet, 0));
+    if (at1) consider(inside_patch(best.facet, 1));
+    if (at2) consider(inside_patch(best.facet, 2));
+    if (next.facet == best.facet && at0 + at1 + at2 >= 2) {
+      const int corner = !at0 ? 0 : !at1 ? 1 : 2;
+      for_fan(best.facet, corner, false, consider);
+    }
+    if (next.facet == best.facet) break;
+    best = next;
+  }
+  return best;
+}
+
+SurfacePoint SurfaceModel::place(const Vec3& guess, int patch, std::span<const Anchor> hints) const {
+  WalkResult best;
+  best.distance2 = std::numeric_limits<double>::infinity();
+  for (const Anchor& hint : hints)
+    for_each_start(hint, patch, [&](std::int32_t facet) {
+      if (facet == best.facet) return;
+      const WalkResult r = walk(guess, facet);
+      if (r.distance2 < best.distance2) best = r;
+    });
+  SurfacePoint result;
+  result.distance2 = best.distance2;
+  if (best.facet == kNone) return result;
+  Vec3 target = guess;
+  Vec3 x = patches_[best.facet].at(best.u, best.v);
+  for (int step = 0; step < kCurvedSteps; ++step) {
+    // Move the flat projection by the tangential part of the error of the curved point.
+    const Vec3 n = normalized(patches_[best.facet].normal(best.u, best.v));
+    const Vec3 error = guess - x;
+    target += error - dot(error, n) * n;
+    const WalkResult r = walk(target, best.facet);
+    const Vec3 y = patches_[r.facet].at(r.u, r.v);
+    if (distance2(y, guess) >= distance2(x, guess)) break;
+    best = r;
+    x = y;
+  }
+  result.point = x;
+  result.anchor = {best.facet, float(best.u), float(best.v)};
+  result.distance2 = distance2(x, guess);
+  return result;
+}
+
+SurfacePoint SurfaceModel::place_on_curve(const Vec3& guess, std::span<const Anchor> hints) const {
+  SurfacePoint result;
+  result.distance2 = std::numeric_limits<double>::infinity();
+  auto try_edge = [&](std::int32_t e) {
+    double best = std::numeric_limits<double>::infinity();
+    double best_t = 0;
+    std::int32_t best_edge = e;
+    auto look = [&](std::int32_t c) {
+      const auto s = closest_on_segment(guess, points_[curves_[c].v[0]], points_[curves_[c].v[1]]);
+      if (s.distance2 >= best) return false;
+      best = s.distance2, best_t = s.t, best_edge = c;
+      return true;
+    };
+    look(e);
+    for (int side = 0; side < 2; ++side) {
+      std::int32_t at = e, through = curves_[e].v[side];
+      for (int step = 0; step < kMaxWalk; ++step) {
+        const int end = curves_[at].v[1] == through ? 1 : 0;
+        at = curves_[at].next[end];
+        if (at == kNone || at == e || !look(at)) break;
+        through = curves_[at].v[0] == through ? curves_[at].v[1] : curves_[at].v[0];
+      }
+    }
+    const Vec3 x = curves_[best_edge].curve.at(best_t);
+    const double d2 = distance2(x, guess);
+    if (d2 < result.distance2)
+      result = {x, {curve_anchor(best_edge), float(best_t), 0}, d2};
+  };
+  bool on_curve = false;
+  for (const Anchor& hint : hints)
+    if (is_curve(hint)) try_edge(-2 - hint.facet), on_curve = true;
+  if (on_curve) return result;
+  // Between two corners: the nearest of the curves that start there.
+  for (const Anchor& hint : hints) {
+    const std::int32_t v = corner_vertex(hint);
+    if (v == kNone) continue;
+    for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i)
+      for (const std::int32_t e : facet_curve_[vertex_facets_[i]])
+        if (e != kNone && (curves_[e].v[0] == v || curves_[e].v[1] == v)) try_edge(e);
+  }
+  return result;
+}
+
+Vec3 SurfaceModel::normal(const Anchor& anchor, int patch) const {
+  Vec3 n{};
+  for_each_start(anchor, patch, [&](std::int32_t f) {
+    if (!is_curve(anchor) && f == anchor.facet) {
+      n = patches_[f].normal(anchor.u, anchor.v);
+    } else if (norm2(n) == 0) {
+      n = normals_[f][0] + normals_[f][1] + normals_[f][2];
+    }
+  });
+  return normalized(n);
+}
+
+double SurfaceModel::deviation2(const std::array<Vec3, 3>& t, int patch,
+                                std::span<const Anchor> hints) const {
+  double worst = place((t[0] + t[1] + t[2]) / 3, patch, hints).distance2;
+  for (int k = 0; k < 3; ++k)
+    worst = std::max(worst, place((t[k] + t[(k + 1) % 3]) / 2, patch, hints).distance2);
+  return worst;
+}
+
+double SurfaceModel::size(const Anchor& anchor) const {
+  if (anchor.facet == kNone) return settings_.hmax;
+  if (is_curve(anchor)) {
+    const auto& v = curves_[-2 - anchor.facet].v;
+    return (1 - anchor.u) * sizes_[v[0]] + anchor.u * sizes_[v[1]];
+  }
+  const auto& v = facets_[anchor.facet];
+  return (1 - double(anchor.u) - anchor.v) * sizes_[v[0]] + anchor.u * sizes_[v[1]] +
+         anchor.v * sizes_[v[2]];
+}
+
+void SurfaceModel::shrink_size(std::int32_t facet, double factor) {
+  for (std::int32_t v : facets_[facet]) sizes_[v] = std::max(settings_.hmin, sizes_[v] * factor);
+}
+
+}  // namespace cavea
