@@ -1,0 +1,153 @@
+// Runs of the program that do something: statuses, files, reports.
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_program.h"
+
+namespace cavea::test {
+namespace {
+
+using Json = nlohmann::json;
+using Files = std::set<std::string>;
+
+constexpr const char* kSample = CAVEA_SOURCE "/tools/sample/bracket.mesh";
+
+class RunTest : public ProgramTest {
+ protected:
+  Json read_json(const std::string& name) const { return Json::parse(read_text(file(name))); }
+};
+
+TEST_F(RunTest, RemeshesTheSampleWithinAllTargets) {
+  const Outcome outcome = cavea({"remesh", kSample, "-o", "out.mesh", "-o", "out.meshb"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(files(), (Files{"out.mesh", "out.sol", "out.meshb", "out.solb"}));
+  for (const char* word : {"before", "after", "worst quality", "conforming", "tets/s", "hausd",
+                           "peak memory", "written out.mesh\n"})
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+  for (const char* name : {"out.mesh", "out.meshb"}) EXPECT_EQ(cavea({"info", name}).status, 0);
+}
+
+TEST_F(RunTest, GivesTheSameBytesAtAnyNumberOfThreads) {
+  ASSERT_EQ(cavea({"remesh", kSample, "-o", "1.meshb", "--threads", "1"}).status, 0);
+  const std::string expected = read_text(file("1.meshb"));
+  for (const char* threads : {"2", "3", "8"}) {
+    ASSERT_EQ(cavea({"remesh", kSample, "-o", "n.meshb", "--threads", threads}).status, 0);
+    EXPECT_TRUE(read_text(file("n.meshb")) == expected) << threads << " threads";
+  }
+}
+
+TEST_F(RunTest, MissedTargetIsStatusOneAndNamed) {
+  const Outcome outcome = cavea({"remesh", kSample, "-o", "out.mesh", "--min-quality", "0.99",
+                                 "--report", "report.json", "--quiet"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("target missed: worst quality"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(files(), (Files{"out.mesh", "out.sol", "report.json"}));
+  const Json report = read_json("report.json");
+  EXPECT_FALSE(report["targets_met"]);
+  bool found = false;
+  for (const Json& target : report["targets"])
+    if (target["name"] == "worst quality") {
+      found = true;
+      EXPECT_FALSE(target["met"]);
+      EXPECT_EQ(target["wanted"], 0.99);
+      EXPECT_NE(target["where"], "");
+    }
+  EXPECT_TRUE(found);
+  EXPECT_EQ(cavea({"info", "out.mesh"}).status, 0) << "a valid mesh is written all the same";
+}
+
+TEST_F(RunTest, QuietPrintsNothing) {
+  const Outcome outcome = cavea({"remesh", kSample, "-o", "out.mesh", "--quiet"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(RunTest, ProgressIsPlainLinesWhereThereIsNoTerminal) {
+  const Outcome outcome = cavea({"remesh", kSample, "-o", "out.mesh", "--verbose"});
+  EXPECT_NE(outcome.err.find(" tets/s"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find('\r'), std::string::npos);
+  EXPECT_EQ(outcome.err.find('\033'), std::string::npos);
+  EXPECT_NE(outcome.out.find("verdict"), std::string::npos);
+}
+
+TEST_F(RunTest, ReportHoldsWhatTheDocumentationPromises) {
+  ASSERT_EQ(cavea({"remesh", kSample, "-o", "out.mesh", "--report", "report.json", "--hausd", "0.2",
+                   "--threads", "2"})
+                .status,
+            0);
+  const Json report = read_json("report.json");
+  const std::string documentation = read_text(CAVEA_SOURCE "/docs/report.md");
+  for (const auto& [key, value] : report.items())
+    EXPECT_NE(documentation.find("`" + key + "`"), std::string::npos) << key;
+  EXPECT_EQ(report["version"], CAVEA_VERSION);
+  EXPECT_EQ(report["input"], kSample);
+  EXPECT_EQ(report["outputs"], Json::array({"out.mesh"}));
+  EXPECT_EQ(report["options"]["hausd"], 0.2);
+  EXPECT_EQ(report["options"]["angle"], 45);
+  EXPECT_TRUE(report["options"]["hsiz"].is_null());
+  EXPECT_GT(report["options"]["hmax"], report["options"]["hmin"]);
+  EXPECT_EQ(report["threads"], 2);
+  EXPECT_GT(report["seconds"], 0);
+  EXPECT_GT(report["tets_per_second"], 0);
+  EXPECT_GT(report["peak_resident_bytes"], 1e6);
+  EXPECT_FALSE(report["phases"].empty());
+  EXPECT_FALSE(report["verdicts"].empty());
+  EXPECT_TRUE(report["targets_met"]);
+  EXPECT_EQ(report["targets"].size(), 3u);
+  EXPECT_GE(report["surface_distance"], 0);
+  EXPECT_GE(report["bulge"], 0);
+  EXPECT_TRUE(report["warnings"].is_array());
+}
+
+TEST_F(RunTest, HistogramsOfTheReportAddUp) {
+  ASSERT_EQ(cavea({"remesh", kSample, "-o", "out.mesh", "--report", "report.json"}).status, 0);
+  const Json report = read_json("report.json");
+  const auto sum = [](const Json& histogram) {
+    std::int64_t total = 0;
+    for (const Json& bin : histogram) total += bin.get<std::int64_t>();
+    return total;
+  };
+  EXPECT_EQ(report["before"]["counts"]["tets"], 4428);
+  for (const char* state : {"before", "after"}) {
+    const Json& mesh = report[state];
+    const std::int64_t tets = mesh["counts"]["tets"];
+    EXPECT_EQ(sum(mesh["quality"]["histogram"]), tets);
+    EXPECT_EQ(sum(mesh["dihedral"]["histogram"]), 6 * tets);
+  }
+  const Json& lengths = report["after"]["lengths"];
+  EXPECT_EQ(sum(lengths["histogram"]), lengths["edges"]);
+}
+
+TEST_F(RunTest, OverwritesAnOlderOutput) {
+  write_text(file("out.mesh"), "old");
+  ASSERT_EQ(cavea({"remesh", kSample, "-o", "out.mesh"}).status, 0);
+  EXPECT_EQ(read_text(file("out.mesh")).substr(0, 4), "Mesh");
+  EXPECT_EQ(files(), (Files{"out.mesh", "out.sol"}));
+}
+
+TEST_F(RunTest, StoppedBySignalsItWritesNothing) {
+  // Small enough a size that no machine ends the run before the signal comes.
+  const std::vector<std::string> command = {CAVEA_PROGRAM, "remesh",   kSample,
+                                            "-o",          "out.mesh", "--hsiz",
+                                            "0.2",         "--report", "report.json"};
+  constexpr double kSecondsUntilStop = 0.5;
+  EXPECT_EQ(run(command, kSecondsUntilStop, SIGINT).status, 128 + SIGINT);
+  EXPECT_EQ(run(command, kSecondsUntilStop, SIGTERM).status, 128 + SIGTERM);
+  EXPECT_EQ(files(), Files{});
+}
+
+TEST_F(RunTest, ReadmeProgramCompilesAndRuns) {
+  const std::string text = read_text(CAVEA_SOURCE "/docs/snippets/library.cpp");
+  EXPECT_NE(read_text(CAVEA_SOURCE "/README.md").find("```cpp\n" + text + "```"), std::string::npos)
+      << "README.md does not hold docs/snippets/library.cpp as it stands";
+  std::filesystem::copy_file(kSample, file("part.mesh"));
+  const Outcome outcome = run({CAVEA_SNIPPET});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(cavea({"info", "part.out.meshb"}).status, 0);
+}
+
+}  // namespace
+}  // namespace cavea::test

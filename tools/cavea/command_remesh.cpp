@@ -1,0 +1,92 @@
+#include "command_remesh.h"
+
+#include <cstdio>
+#include <functional>
+
+#include "cavea/base/error.h"
+#include "cavea/base/memory.h"
+#include "cavea/base/timer.h"
+#include "cavea/remesh/remesh.h"
+#include "exit_status.h"
+#include "interrupt.h"
+#include "load.h"
+#include "output_names.h"
+#include "progress.h"
+#include "run_report.h"
+#include "staging.h"
+
+namespace cavea::program {
+namespace {
+
+constexpr int kSignalStatus = 128;  // plus the signal: what shells expect of a stopped program
+
+void check_names(const RemeshArguments& arguments) {
+  std::vector<NamedFile> outputs;
+  for (const std::string& name : arguments.outputs)
+    for (NamedFile& file : files_of_mesh(name)) outputs.push_back(std::move(file));
+  if (!arguments.report.empty()) outputs.push_back({"--report", arguments.report});
+  check_outputs({"the input", arguments.input}, outputs);
+}
+
+/// Runs the library with a progress line, which is gone when this returns.
+Report run_library(TetMesh& mesh, Options options, bool quiet) {
+  if (quiet) return remesh(mesh, {}, options);
+  ProgressPrinter printer;
+  options.progress = [&printer](const Progress& p) { printer.show(p); };
+  return remesh(mesh, {}, options);
+}
+
+/// Writes all files of a run, the report last: it tells what the writing took.
+std::vector<std::filesystem::path> write_all(const MeshData& data, RunReport& run,
+                                             const Interrupt& interrupt) {
+  const Timer timer;
+  OutputSet outputs;
+  for (const std::string& name : run.arguments.outputs) outputs.add_mesh(name, data);
+  run.write_seconds = timer.seconds();
+  run.report.peak_resident_bytes = peak_resident_bytes();
+  if (!run.arguments.report.empty()) outputs.add_text(run.arguments.report, to_text(to_json(run)));
+  if (interrupt.raised()) throw Cancelled();
+  return outputs.publish();
+}
+
+RunReport remesh_file(const RemeshArguments& arguments, Options options,
+                      const Interrupt& interrupt) {
+  Timer timer;
+  LoadedMesh loaded = load_mesh(arguments.input);
+  const double read_seconds = timer.seconds();
+  options.cancel = interrupt.flag();
+  RunReport run{arguments, run_library(loaded.mesh, options, arguments.quiet), read_seconds};
+  std::vector<std::string>& warnings = run.report.warnings;
+  warnings.insert(warnings.begin(), loaded.warnings.begin(), loaded.warnings.end());
+
+  MeshData data = to_data(loaded.mesh);
+  loaded.mesh = {};  // a large mesh should not be held twice while it is written
+  data.parts = std::move(run.report.part_of_tet);
+  const auto files = write_all(data, run, interrupt);
+  if (!arguments.quiet) {
+    print_warnings(warnings);
+    // stdio, not fmt: a reader of the report that has gone away changes nothing any more.
+    std::fputs(to_text(run, arguments.verbose).c_str(), stdout);
+    for (const auto& file : files)
+      std::fputs(("  written " + file.string() + "\n").c_str(), stdout);
+  }
+  return run;
+}
+
+}  // namespace
+
+int run_remesh(const RemeshArguments& arguments) {
+  const Options options = to_options(arguments);
+  check_names(arguments);
+  const Interrupt interrupt;
+  try {
+    const RunReport run = remesh_file(arguments, options, interrupt);
+    std::fputs(missed_text(run.report).c_str(), stderr);
+    return run.report.targets_met() ? kDone : kMissed;
+  } catch (const Cancelled&) {
+    std::fputs("cavea: stopped by a signal, nothing was written\n", stderr);
+    return kSignalStatus + interrupt.signal();
+  }
+}
+
+}  // namespace cavea::program

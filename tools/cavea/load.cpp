@@ -1,0 +1,31 @@
+#include "load.h"
+
+#include <cstdio>
+
+#include "cavea/base/error.h"
+#include "cavea/io/formats.h"
+
+namespace cavea::program {
+
+LoadedMesh build_loaded(const MeshData& data, std::vector<std::string> warnings) {
+  BuildResult built = build(data);
+  for (std::string& text : built.summary.warnings()) warnings.push_back(std::move(text));
+  return {std::move(built.mesh), built.summary, std::move(warnings)};
+}
+
+LoadedMesh load_mesh(const std::filesystem::path& file) {
+  std::vector<std::string> warnings;
+  const MeshData data = read_mesh(file, &warnings);
+  try {
+    return build_loaded(data, std::move(warnings));
+  } catch (const InputError& e) {
+    throw InputError(file.string() + ": " + e.what());  // lists do not know where they came from
+  }
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& text : warnings)
+    std::fputs(("cavea: warning: " + text + "\n").c_str(), stderr);
+}
+
+}  // namespace cavea::program

@@ -1,0 +1,26 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cavea/mesh/build.h"
+
+namespace cavea::program {
+
+/// A mesh out of a file, and what was odd about it.
+struct LoadedMesh {
+  TetMesh mesh;
+  BuildSummary repairs;
+  std::vector<std::string> warnings;  ///< of the reader, then of build()
+};
+
+/// Builds the mesh and adds what build() put right to the warnings. \throw InputError
+LoadedMesh build_loaded(const MeshData& data, std::vector<std::string> warnings);
+
+/// Reads and builds. \throw InputError
+LoadedMesh load_mesh(const std::filesystem::path& file);
+
+/// A line on standard error for each.
+void print_warnings(const std::vector<std::string>& warnings);
+
+}  // namespace cavea::program

@@ -1,0 +1,85 @@
+#include "remesh_arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cavea/base/error.h"
+#include "empty_values.h"
+
+namespace cavea::program {
+namespace {
+
+void add_size_flags(CLI::App& command, Options& options) {
+  command.add_option("--hausd", options.hausd,
+                     "Largest distance to the ideal surface [0.001 of the box diagonal]");
+  command.add_option("--hmin", options.hmin, "Shortest wanted edge [0.001 of the box diagonal]");
+  command.add_option("--hmax", options.hmax, "Longest wanted edge [0.1 of the box diagonal]");
+  command.add_option("--hsiz", options.hsiz, "One edge length everywhere");
+  command.add_option("--hgrad", options.hgrad, "Largest ratio of adjacent edge lengths")
+      ->capture_default_str();
+}
+
+void add_angle_flags(CLI::App& command, RemeshArguments& arguments) {
+  CLI::Option* angle = command.add_option("--angle", arguments.options.angle,
+                                          "Angle between normals, in degrees, that makes a ridge");
+  angle->capture_default_str();
+  command.add_flag("--no-angle", arguments.no_angle, "Detect no ridges")->excludes(angle);
+}
+
+void add_target_flags(CLI::App& command, Options& options) {
+  command
+      .add_option("--min-quality", options.min_quality,
+                  "Target: quality of the worst tetrahedron (a regular one has 1)")
+      ->capture_default_str();
+  command
+      .add_option("--min-conform", options.min_conform,
+                  "Target: percent of edges within [1/sqrt2, sqrt2] of the wanted length")
+      ->capture_default_str();
+}
+
+void add_output_flags(CLI::App& command, RemeshArguments& arguments) {
+  // One value at each -o: CLI11 would let a list swallow the input's name.
+  command.add_option("-o,--out", arguments.outputs, "File to write; may be given again")
+      ->required()
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("--report", arguments.report, "Write a report as JSON");
+  CLI::Option* verbose = command.add_flag("--verbose", arguments.verbose,
+                                          "Also print the phases and the verdicts of operators");
+  command.add_flag("--quiet", arguments.quiet, "Print nothing but errors and missed targets")
+      ->excludes(verbose);
+}
+
+}  // namespace
+
+CLI::App* add_remesh_command(CLI::App& app, RemeshArguments& arguments) {
+  CLI::App* command = app.add_subcommand("remesh", "Remesh a tetrahedral mesh");
+  command->add_option("IN", arguments.input, "Mesh to read")->required();
+  add_output_flags(*command, arguments);
+  add_size_flags(*command, arguments.options);
+  add_angle_flags(*command, arguments);
+  add_target_flags(*command, arguments.options);
+  command->add_option("--threads", arguments.threads, "Number of threads [all cores]");
+  command->footer(
+      "Exit status: 0 done, every target met; 1 a valid mesh was written, but a target was missed; "
+      "2 bad usage or input, nothing written; 3 a fault of the program, nothing written.");
+  refuse_empty_values(*command);
+  return command;
+}
+
+Options to_options(const RemeshArguments& arguments) {
+  Options options = arguments.options;
+  options.detect_ridges = !arguments.no_angle;
+  // The library reads 0 as "all cores"; a number that a user typed must be one.
+  if (arguments.threads) {
+    if (*arguments.threads < 1)
+      throw OptionError(fmt::format("--threads must be at least 1, not {}", *arguments.threads));
+    options.threads = *arguments.threads;
+  }
+  validate(options);
+  return options;
+}
+
+}  // namespace cavea::program

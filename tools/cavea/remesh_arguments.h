@@ -1,0 +1,28 @@
+#pragma once
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cavea/remesh/options.h"
+
+namespace cavea::program {
+
+/// The command line of `cavea remesh`, as it was typed.
+struct RemeshArguments {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::string report;  ///< empty: none
+  Options options;     ///< without threads, progress and cancel
+  std::optional<int> threads;
+  bool no_angle = false, verbose = false, quiet = false;
+};
+
+/// Adds the command and its flags; parsing fills `arguments`, which must outlive `app`.
+CLI::App* add_remesh_command(CLI::App& app, RemeshArguments& arguments);
+
+/// The options for the library. \throw OptionError naming the option, see validate().
+Options to_options(const RemeshArguments& arguments);
+
+}  // namespace cavea::program

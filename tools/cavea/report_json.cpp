@@ -1,0 +1,67 @@
+#include "run_report.h"
+
+namespace cavea::program {
+namespace {
+
+Json options_json(const RunReport& run) {
+  const Options& asked = run.arguments.options;
+  const Report& report = run.report;
+  Json options = {{"hausd", report.hausd}, {"hmin", report.hmin},   {"hmax", report.hmax},
+                  {"hsiz", nullptr},       {"hgrad", report.hgrad}, {"angle", nullptr}};
+  if (asked.hsiz) options["hsiz"] = *asked.hsiz;
+  if (!run.arguments.no_angle) options["angle"] = asked.angle;
+  options["min_quality"] = asked.min_quality;
+  options["min_conform"] = asked.min_conform;
+  return options;
+}
+
+Json phases_json(const Report& report) {
+  Json phases = Json::array();
+  for (const PhaseTime& p : report.phases)
+    phases.push_back({{"phase", p.phase}, {"seconds", p.seconds}});
+  return phases;
+}
+
+Json verdicts_json(const Report& report) {
+  Json verdicts = Json::object();
+  for (const VerdictCount& v : report.verdicts) verdicts[v.op][v.verdict] = v.count;
+  return verdicts;
+}
+
+Json targets_json(const Report& report) {
+  Json targets = Json::array();
+  for (const Target& t : report.targets)
+    targets.push_back({{"name", t.name},
+                       {"wanted", t.wanted},
+                       {"measured", t.measured},
+                       {"met", t.met},
+                       {"where", t.where}});
+  return targets;
+}
+
+}  // namespace
+
+Json to_json(const RunReport& run) {
+  const Report& report = run.report;
+  return {{"version", CAVEA_VERSION},
+          {"input", run.arguments.input},
+          {"outputs", run.arguments.outputs},
+          {"options", options_json(run)},
+          {"threads", report.threads},
+          {"seconds", report.seconds},
+          {"read_seconds", run.read_seconds},
+          {"write_seconds", run.write_seconds},
+          {"tets_per_second", report.tets_per_second},
+          {"peak_resident_bytes", report.peak_resident_bytes},
+          {"phases", phases_json(report)},
+          {"before", to_json(report.before)},
+          {"after", to_json(report.after)},
+          {"verdicts", verdicts_json(report)},
+          {"surface_distance", report.surface_distance},
+          {"bulge", report.bulge},
+          {"targets", targets_json(report)},
+          {"targets_met", report.targets_met()},
+          {"warnings", report.warnings}};
+}
+
+}  // namespace cavea::program

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "run_report.h"
+#include "summary_text.h"
+#include "text_table.h"
+
+namespace cavea::program {
+namespace {
+
+constexpr double kMegabyte = 1e6;
+
+std::string surface_text(const Report& report) {
+  TextTable t;
+  t.row({"surface distance", fmt::format("{:.4g}", report.surface_distance),
+         fmt::format("({:.2f} of hausd {:.4g})", report.surface_distance / report.hausd,
+                     report.hausd)});
+  t.row({"bulge of the smooth surface", fmt::format("{:.4g}", report.bulge),
+         fmt::format("({:.2f} of hausd)", report.bulge / report.hausd)});
+  return t.text();
+}
+
+std::string cost_text(const RunReport& run) {
+  const Report& report = run.report;
+  const auto bytes = static_cast<double>(report.peak_resident_bytes);
+  TextTable t;
+  t.row({"time", fmt::format("{:.2f} s", report.seconds),
+         fmt::format("({} threads; read {:.2f} s, write {:.2f} s)", report.threads,
+                     run.read_seconds, run.write_seconds)});
+  t.row({"speed",
+         fmt::format("{} tets/s", grouped(static_cast<std::int64_t>(report.tets_per_second)))});
+  t.row({"peak memory", fmt::format("{:.0f} MB", bytes / kMegabyte)});
+  return t.text();
+}
+
+std::string targets_text(const Report& report) {
+  TextTable t;
+  t.row({"target", "wanted", "measured", ""});
+  for (const Target& target : report.targets)
+    t.row({target.name, fmt::format("{:.4g}", target.wanted),
+           fmt::format("{:.4g}", target.measured), target.met ? "met" : "MISSED"});
+  return t.text();
+}
+
+std::string phases_text(const Report& report) {
+  TextTable t;
+  t.row({"phase", "seconds"});
+  for (const PhaseTime& p : report.phases) t.row({p.phase, fmt::format("{:.2f}", p.seconds)});
+  return t.text();
+}
+
+std::string verdicts_text(const Report& report) {
+  TextTable t;
+  t.row({"operator, verdict", "count"});
+  for (const VerdictCount& v : report.verdicts)
+    t.row({fmt::format("{}, {}", v.op, v.verdict), grouped(v.count)});
+  return t.text();
+}
+
+}  // namespace
+
+std::string to_text(const RunReport& run, bool verbose) {
+  const Report& report = run.report;
+  const std::vector<SummaryColumn> columns = {{"before", &report.before}, {"after", &report.after}};
+  std::vector<std::string> blocks = {
+      fmt::format("cavea {}: {} -> {}\n", CAVEA_VERSION, run.arguments.input,
+                  fmt::join(run.arguments.outputs, ", ")),
+      figures_text(columns), quality_histogram_text(columns), length_histogram_text(columns)};
+  if (verbose) {
+    blocks.push_back(phases_text(report));
+    blocks.push_back(verdicts_text(report));
+  }
+  blocks.push_back(surface_text(report) + cost_text(run));
+  blocks.push_back(targets_text(report));
+  return fmt::format("{}", fmt::join(blocks, "\n"));
+}
+
+std::string missed_text(const Report& report) {
+  std::string out;
+  for (const Target& t : report.targets)
+    if (!t.met)
+      out += fmt::format("cavea: target missed: {}: {:.4g}, wanted {:.4g}{}{}\n", t.name,
+                         t.measured, t.wanted, t.where.empty() ? "" : ", at ", t.where);
+  return out;
+}
+
+}  // namespace cavea::program
