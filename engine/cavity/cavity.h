@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "cavea/mesh/new_vertex.h"
 #include "cavea/mesh/tet_mesh.h"
 
 namespace cavea {
@@ -10,15 +11,6 @@ struct NewTet {
   std::array<VertexId, 4> v;
   std::int32_t ref = 0;
   float quality = 0;
-};
-
-/// A vertex that a cavity inserts, or the new state of one that it moves.
-struct NewVertex {
-  Vec3 point;
-  float size = 0;
-  Tag tags = 0;
-  std::int32_t ref = 0;
-  Anchor anchor;
 };
 
 /// A local operation as a value: the tets and surface triangles that go and those that come. Operators

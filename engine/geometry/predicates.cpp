@@ -13,9 +13,18 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   difference(a, b, u);
   difference(a, c, v);
   difference(a, d, w);
-  const Quad det = u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-                   u[2] * (v[0] * w[1] - v[1] * w[0]);
-  return det > 0 ? 1 : det < 0 ? -1 : 0;
+  const auto size = [](Quad x) { return x < 0 ? -x : x; };
+  Quad det = 0, permanent = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const Quad left = v[j] * w[k], right = v[k] * w[j];
+    det += u[i] * (left - right);
+    permanent += size(u[i]) * (size(left) + size(right));
+  }
+  // The filter's bound again for this precision, 8 u with u = 2^-113: the products of three
+  // differences have up to 160 bits, so that a flat tetrahedron need not give zero.
+  const Quad bound = Quad(0x1p-110) * permanent;
+  return det > bound ? 1 : det < -bound ? -1 : 0;
 }
 
 }  // namespace cavea

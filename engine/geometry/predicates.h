@@ -27,7 +27,8 @@ inline bool certainly_positive(const Vec3& a, const Vec3& b, const Vec3& c, cons
 }
 
 /// Sign of the volume of (a, b, c, d): 1, 0 or -1. Filtered; where the filter fails the determinant
-/// is evaluated on 113-bit floats, exact for coordinates of like magnitude.
+/// is evaluated on 113-bit floats, and 0 is returned where even their rounding may hide its sign: a
+/// flat tetrahedron always gives 0, whatever the order of its vertices.
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 }  // namespace cavea

@@ -1,5 +1,7 @@
 #include "cavea/operator/edge_split.h"
 
+#include "cavea/surface/midpoint.h"
+
 namespace cavea {
 namespace {
 
@@ -7,14 +9,17 @@ namespace {
 constexpr double kShares[] = {1, 0.5, 0.25, 0};
 
 struct EdgeOnSurface {
+  TriangleId triangle = kNone;
+  int side = 0;
   Tag tags = 0;
   std::int32_t ref = 0;
 };
 
 EdgeOnSurface edge_of(const TetMesh& m, const Shell& shell) {
-  const Triangle& t = m.triangles[shell.triangles[0].triangle];
+  const TriangleId id = shell.triangles[0].triangle;
+  const Triangle& t = m.triangles[id];
   for (int k = 0; k < 3; ++k)
-    if (t.v[k] != shell.p && t.v[k] != shell.q) return {t.edge_tag[k], t.edge_ref[k]};
+    if (t.v[k] != shell.p && t.v[k] != shell.q) return {id, k, t.edge_tag[k], t.edge_ref[k]};
   return {};
 }
 
@@ -28,25 +33,6 @@ Verdict may_split(const OperatorContext& c, EdgeOnSurface& edge) {
     if (c.mesh.triangles[at.triangle].tags & tag::kRequired) return Verdict::kBreaksFeature;
   edge = edge_of(c.mesh, s);
   return edge.tags & tag::kRequired ? Verdict::kBreaksFeature : Verdict::kAccept;
-}
-
-/// The vertex as it should stand.
-NewVertex middle(const OperatorContext& c, const EdgeOnSurface& edge) {
-  const Shell& s = c.shell;
-  const TetMesh& m = c.mesh;
-  NewVertex v;
-  v.point = (m.points[s.p] + m.points[s.q]) / 2;
-  v.size = (m.sizes[s.p] + m.sizes[s.q]) / 2;
-  if (!s.on_surface()) return v;
-  v.tags = Tag(tag::kSurface | (edge.tags & (tag::kRidge | tag::kReferenceEdge | tag::kNonManifold)));
-  const Anchor hints[2] = {m.anchors[s.p], m.anchors[s.q]};
-  const SurfacePoint at =
-      edge.tags & tag::kFeature
-          ? c.surface.place_on_curve(v.point, hints)
-          : c.surface.place(v.point, m.triangles[s.triangles[0].triangle].patch, hints);
-  v.anchor = at.anchor;
-  if (at.anchor.facet != kNone) v.point = at.point;
-  return v;
 }
 
 /// Qualities of the two halves of each tet of the shell with the vertex at x; the worst, or 0 when one
@@ -112,7 +98,8 @@ Verdict edge_split(OperatorContext& c, VertexId vertex_id, Cavity& cavity) {
   if (const Verdict v = may_split(c, edge); v != Verdict::kAccept) return v;
   double before = 1;
   for (TetId t : c.shell.tets) before = std::min(before, double(c.mesh.qualities[t]));
-  NewVertex vertex = middle(c, edge);
+  NewVertex vertex =
+      midpoint(c.mesh, c.surface, c.shell.p, c.shell.q, edge.triangle, edge.side);
   if (makes_short_edge(c, vertex)) return Verdict::kBadLength;
   const Vec3 straight = (c.point(c.shell.p) + c.point(c.shell.q)) / 2, target = vertex.point;
   // Splitting a flat tet gives flat tets; only where all of them are sound need the halves be.

@@ -9,12 +9,17 @@
 namespace cavea {
 namespace {
 
-/// The quality worklist of one part: tets to ask, worst never forgotten.
+/// The quality worklist of one part. Each edge and face is asked once after anything around it has
+/// changed: a tet is stamped when it changes and when it asks, and what an edge's shell asked after its
+/// last change need not be asked again from another tet of the shell.
 class SwapQueue {
  public:
   explicit SwapQueue(PartState& s) : s_(s), m_(s.mesh()) {
-    for (std::size_t t = 0; t < m_.tets.size(); ++t)
-      if (m_.tet_alive(TetId(t)) && (m_.tet_flags[t] & tet_flag::kAskSwap)) queue_.push_back(TetId(t));
+    const std::size_t n = m_.tets.size();
+    changed_.assign(n, 0);
+    asked_.assign(n, 1);
+    for (std::size_t t = 0; t < n; ++t)
+      if (m_.tet_alive(TetId(t)) && (m_.tet_flags[t] & tet_flag::kAskSwap)) enqueue(TetId(t));
   }
 
   std::int64_t run() {
@@ -22,42 +27,47 @@ class SwapQueue {
       const TetId t = queue_[i];
       if (!m_.tet_alive(t) || !(m_.tet_flags[t] & tet_flag::kAskSwap)) continue;
       m_.tet_flags[t] &= std::uint8_t(~tet_flag::kAskSwap);
-      ask(t);
+      if (m_.qualities[t] < s_.settings.swap_ceiling) ask(t);
     }
     return done_;
   }
 
  private:
-  bool asked_later(TetId t) const { return m_.tet_flags[t] & tet_flag::kAskSwap; }
+  void enqueue(TetId t) {
+    if (std::size_t(t) >= changed_.size()) changed_.resize(std::size_t(t) + 1), asked_.resize(std::size_t(t) + 1);
+    changed_[t] = clock_;
+    asked_[t] = 0;
+    queue_.push_back(t);
+  }
 
-  /// Of the tets of a shell the worst asks, if its turn is still to come.
-  bool worse_will_ask(TetId t, const std::vector<TetId>& tets) const {
-    TetId worst = t;
-    for (TetId x : tets)
-      if (m_.qualities[x] < m_.qualities[worst]) worst = x;
-    return worst != t && asked_later(worst);
+  bool asked_before(const std::vector<TetId>& tets) const {
+    std::uint32_t asked = 0, changed = 0;
+    for (TetId t : tets) asked = std::max(asked, asked_[t]), changed = std::max(changed, changed_[t]);
+    return asked > changed;
   }
 
   void committed() {
     s_.commit();
     ++done_;
-    for (TetId t : s_.editor.created()) queue_.push_back(t);
+    ++clock_;
+    for (TetId t : s_.editor.created()) enqueue(t);
   }
 
   void ask(TetId t) {
     const double quality = m_.qualities[t];
-    if (quality > s_.settings.swap_ceiling) return;
+    ++clock_;
     for (const auto& e : kEdgeVertices)
       if (swap_edge(t, e[0], e[1])) return;
     for (int f = 0; f < 4; ++f)
       if (swap_face(t, f)) return;
+    asked_[t] = clock_;
     if (quality < s_.settings.repair_below) collapse_for_quality(t);
   }
 
   bool swap_edge(TetId t, int i, int j) {
     if (s_.context.frozen_edge(m_.tets[t][i], m_.tets[t][j])) return false;
     gather_shell(m_, t, i, j, s_.context.shell);
-    if (worse_will_ask(t, s_.context.shell.tets)) return false;
+    if (asked_before(s_.context.shell.tets)) return false;
     if (!s_.count(Operator::kEdgeSwap, edge_swap(s_.context, s_.cavity))) return false;
     committed();
     return true;
@@ -66,7 +76,7 @@ class SwapQueue {
   bool swap_face(TetId t, int f) {
     const FaceLink other = m_.links[t][f];
     if (!other.is_tet()) return false;
-    if (m_.qualities[other.tet()] < m_.qualities[t] && asked_later(other.tet())) return false;
+    if (asked_[other.tet()] > std::max(changed_[t], changed_[other.tet()])) return false;
     if (!s_.count(Operator::kFaceSwap, face_swap(s_.context, t, f, s_.cavity))) return false;
     committed();
     return true;
@@ -86,6 +96,8 @@ class SwapQueue {
   PartState& s_;
   TetMesh& m_;
   std::vector<TetId> queue_;
+  std::vector<std::uint32_t> changed_, asked_;
+  std::uint32_t clock_ = 2;  ///< 0 and 1 stand for what was before
   std::int64_t done_ = 0;
 };
 

@@ -10,6 +10,7 @@
 #include "cavea/mesh/check.h"
 #include "cavea/mesh/compact.h"
 #include "cavea/part/round.h"
+#include "cavea/remesh/bulk.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/resolved.h"
 #include "cavea/surface/features.h"
@@ -32,6 +33,7 @@ class Run {
 
   void operator()() {
     timed("analysis", [&] { analyse(); });
+    timed("bulk", [&] { refine_in_bulk(mesh_, *surface_, [&] { resize(); }); });
     for (const Phase& phase : recipe(r_)) timed(phase.name, [&] { run_phase(phase); });
     timed("measurement", [&] { measure(); });
   }

@@ -1,6 +1,8 @@
 #include "cavea/subdivide/settle.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/predicates.h"
@@ -31,6 +33,8 @@ class Settling {
 
  private:
   static constexpr std::uint8_t kAtRest = 255;  ///< on the straight midpoint
+  /// Least volume in a flat tet: its children cannot all be positive, but need not be inverted.
+  static constexpr double kFlatParent = -1;
 
   bool find_displaced() {
     std::uint8_t any = 0;
@@ -51,21 +55,32 @@ class Settling {
     return v >= from_.first_new && halvings_[v - from_.first_new] != kAtRest;
   }
 
+  bool displaced(const std::array<VertexId, 4>& tet) const {
+    return std::ranges::any_of(tet, [&](VertexId v) { return displaced(v); });
+  }
+
+  /// Six times the volume that a child of tet t must keep, or kFlatParent.
+  double least_volume6(TetId t) const {
+    const auto [a, b, c, d] = from_.mesh.corners(t);
+    return certainly_positive(a, b, c, d) ? volume6(a, b, c, d) * (from_.least_volume_share / 8)
+                                          : kFlatParent;
+  }
+
+  bool good(TetId child, double least) const {
+    const auto [a, b, c, d] = out_.corners(child);
+    if (least == kFlatParent) return volume6(a, b, c, d) >= 0;
+    return certainly_positive(a, b, c, d) && volume6(a, b, c, d) >= least;
+  }
+
   /// Asks for the displaced vertices of the tet's bad children to be drawn back.
   void judge(TetId t) {
-    double least = -1;  // until a child needs it
+    std::optional<double> least;
     for (TetId child = from_.first_child[t]; child < from_.first_child[t + 1]; ++child) {
-      const auto& v = out_.tets[child];
-      if (std::ranges::none_of(v, [&](VertexId w) { return displaced(w); })) continue;
-      if (least < 0) {
-        const auto [a, b, c, d] = from_.mesh.corners(t);
-        if (!certainly_positive(a, b, c, d)) return;
-        least = volume6(a, b, c, d) * (from_.least_volume_share / 8);
-      }
-      const auto [a, b, c, d] = out_.corners(child);
-      if (certainly_positive(a, b, c, d) && volume6(a, b, c, d) >= least) continue;
-      for (const VertexId w : v)
-        if (displaced(w)) atomic_or(draw_back_[w - from_.first_new], std::uint8_t{1});
+      if (!displaced(out_.tets[child])) continue;
+      if (!least) least = least_volume6(t);
+      if (good(child, *least)) continue;
+      for (const VertexId v : out_.tets[child])
+        if (displaced(v)) atomic_or(draw_back_[v - from_.first_new], std::uint8_t{1});
     }
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 
+#include "cavea/mesh/new_vertex.h"
 #include "cavea/mesh/tet_mesh.h"
 
 namespace cavea {
@@ -10,15 +11,6 @@ struct MeshEdge {
   VertexId a = kNone, b = kNone;  ///< a < b
   TriangleId triangle = kNone;    ///< the smallest one; kNone for an edge inside the volume
   int side = 0;                   ///< the edge's place in edge_tag and edge_ref of the triangle
-};
-
-/// What the vertex on a split edge is to be.
-struct NewVertex {
-  Vec3 point;
-  Anchor anchor;
-  Tag tags = 0;
-  std::int32_t ref = 0;
-  float size = 0;
 };
 
 /// Whether to split an edge; asked once for each edge. Not to be split are edges of required tets
@@ -49,8 +41,9 @@ inline constexpr double kLeastVolumeShare = 0.1;
 ///
 /// A vertex that `place` puts off the straight midpoint is drawn back halfway, at most six times
 /// and then wholly, while a tet at it is not certainly positive or keeps less than
-/// kLeastVolumeShare of its volume; it is then tagged kOffSurface. So the children of a tet whose
-/// volume is well above the rounding error are certainly positive; those of a flat one stay flat.
+/// `least_volume_share` of its volume; it is then tagged kOffSurface. So the children of a tet
+/// whose volume is well above the rounding error are certainly positive; those of a flat one are
+/// flat or positive, up to rounding.
 ///
 /// \param least_volume_share 0 asks for positive volumes only, as for cuts anywhere along the edges
 /// \pre links and triangles are as check() wants them; tets may be flat
