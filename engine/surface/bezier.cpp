@@ -17,15 +17,20 @@ Vec3 BezierTriangle::at(double u, double v) const {
          6 * u * v * w * center;
 }
 
-Vec3 BezierTriangle::normal(double u, double v) const {
+std::array<Vec3, 2> BezierTriangle::derivatives(double u, double v) const {
   const double w = 1 - u - v;
-  // Derivatives along a0->a1 and a0->a2, each three times a quadratic of control differences.
+  // Derivatives along a0->a1 and a0->a2, three times these quadratics of control differences.
   const Vec3 du = w * w * (edge[2][0] - corner[0]) + u * u * (corner[1] - edge[2][1]) +
                   v * v * (edge[0][1] - edge[1][0]) + 2 * w * u * (edge[2][1] - edge[2][0]) +
                   2 * u * v * (edge[0][0] - center) + 2 * v * w * (center - edge[1][1]);
   const Vec3 dv = w * w * (edge[1][1] - corner[0]) + u * u * (edge[0][0] - edge[2][1]) +
                   v * v * (corner[2] - edge[1][0]) + 2 * w * u * (center - edge[2][0]) +
                   2 * u * v * (edge[0][1] - center) + 2 * v * w * (edge[1][0] - edge[1][1]);
+  return {3 * du, 3 * dv};
+}
+
+Vec3 BezierTriangle::normal(double u, double v) const {
+  const auto [du, dv] = derivatives(u, v);
   return cross(du, dv);
 }
 

@@ -22,7 +22,9 @@ struct BezierTriangle {
 
   /// sigma(u, v).
   Vec3 at(double u, double v) const;
-  /// Unnormalised normal: the cross product of the two parametric derivatives.
+  /// The derivatives of sigma by u and by v.
+  std::array<Vec3, 2> derivatives(double u, double v) const;
+  /// Unnormalised normal: the cross product of the derivatives.
   Vec3 normal(double u, double v) const;
   /// Sets the center as the paper does (section 3.2.3), out of the others.
   void set_center();

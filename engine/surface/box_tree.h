@@ -1,0 +1,88 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cavea/geometry/vec3.h"
+
+namespace cavea {
+
+/// An axis-aligned box; empty (low > high) at first.
+struct Box {
+  Vec3 low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
+
+  void add(const Vec3& p);
+  void add(const Box& b);
+  /// Squared distance of a point from the box; 0 inside.
+  double distance2(const Vec3& p) const {
+    const auto outside = [](double x, double l, double h) {
+      return x < l ? l - x : x > h ? x - h : 0;
+    };
+    const double x = outside(p.x, low.x, high.x), y = outside(p.y, low.y, high.y),
+                 z = outside(p.z, low.z, high.z);
+    return x * x + y * y + z * z;
+  }
+
+ private:
+  static constexpr double kFar = 1.7976931348623157e308;
+};
+
+/// A static bounding-volume tree over boxes: a complete binary tree in heap order, cut at the
+/// medians of the boxes' centres, so that no node needs a pointer. It depends on the boxes alone,
+/// not on the number of threads that build it. Read-only after construction: many threads may ask
+/// at once.
+class BoxTree {
+ public:
+  explicit BoxTree(std::span<const Box> boxes);
+
+  /// The boxes' numbers in the order of the tree's slots: boxes of a leaf are neighbours.
+  const std::vector<std::int32_t>& order() const { return order_; }
+
+  /// Calls visit(slot) for the boxes that may hold something nearer to p than sqrt(bound2), near
+  /// ones first; visit lowers bound2 as it finds something.
+  template <class Visit>
+  void visit_near(const Vec3& p, double& bound2, Visit&& visit) const {
+    if (order_.empty()) return;
+    std::array<std::pair<std::size_t, double>, kMaxLevels + 2> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {0, nodes_[0].distance2(p)};
+    while (depth > 0) {
+      const auto [node, near2] = stack[--depth];
+      if (near2 >= bound2) continue;
+      if (node >= first_leaf()) {
+        const auto [begin, end] = range(levels_, node - first_leaf());
+        for (std::size_t slot = begin; slot < end; ++slot) visit(slot);
+        continue;
+      }
+      std::pair<std::size_t, double> a{2 * node + 1, nodes_[2 * node + 1].distance2(p)};
+      std::pair<std::size_t, double> b{2 * node + 2, nodes_[2 * node + 2].distance2(p)};
+      if (a.second < b.second) std::swap(a, b);
+      stack[depth++] = a;
+      stack[depth++] = b;
+    }
+  }
+
+ private:
+  /// Leaves hold at least half as many boxes (unless there are fewer); more make queries slower,
+  /// fewer cost memory.
+  static constexpr std::size_t kLeafSize = 4;
+  /// Boxes are numbered by 32 bits.
+  static constexpr int kMaxLevels = 32;
+
+  std::size_t first_leaf() const { return (std::size_t{1} << levels_) - 1; }
+  /// The slots below node k of a level.
+  std::pair<std::size_t, std::size_t> range(int level, std::size_t k) const {
+    return {order_.size() * k >> level, order_.size() * (k + 1) >> level};
+  }
+  void sort_level(int level, std::span<const Box> boxes);
+  void set_boxes(std::span<const Box> boxes);
+
+  int levels_ = 0;  ///< below the root
+  std::vector<Box> nodes_;
+  std::vector<std::int32_t> order_;
+};
+
+}  // namespace cavea

@@ -1,0 +1,206 @@
+#include "cavea/surface/distance.h"
+
+#include <cmath>
+
+#include "cavea/base/parallel.h"
+#include "cavea/geometry/closest.h"
+#include "cavea/surface/facet_tree.h"
+#include "cavea/surface/patch_tree.h"
+
+namespace cavea {
+namespace {
+
+/// 276 lattice points; a triangle that needs more at the caller's step is far larger than the rest.
+constexpr int kMaxIntervals = 22;
+/// Corners and edge midpoints.
+constexpr int kMinIntervals = 2;
+/// Triangles a task: their cost differs by their samples.
+constexpr std::size_t kGrain = 32;
+
+double longest_edge2(const Corners& t) {
+  return std::max({distance2(t[0], t[1]), distance2(t[1], t[2]), distance2(t[2], t[0])});
+}
+
+/// Calls f(u, v) on the lattice of n intervals an edge, and on the edge midpoints and the centroid
+/// where the lattice misses them.
+template <class F>
+void for_each_sample(int n, F&& f) {
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n - j; ++i) f(double(i) / n, double(j) / n);
+  if (n % 2 != 0) f(0.5, 0.0), f(0.5, 0.5), f(0.0, 0.5);
+  if (n % 3 != 0) f(1.0 / 3, 1.0 / 3);
+}
+
+/// What the samples of one triangle say.
+struct Sampled {
+  double max = -1, sum = 0, area = 0;
+  Vec3 where;
+  int count = 0;
+
+  void add(const Vec3& x, double distance) {
+    if (distance > max) max = distance, where = x;
+    sum += distance;
+    ++count;
+  }
+};
+
+/// Samples triangles: distance_from() makes a function of the sample x for each triangle in turn,
+/// so that a search may begin where it ended for the sample before. Never where another triangle's
+/// ended: which one that is depends on the threads.
+template <class At, class DistanceFrom>
+std::vector<Sampled> sample_all(std::span<const Corners> triangles, double step, At&& at,
+                                DistanceFrom&& distance_from) {
+  std::vector<Sampled> samples(triangles.size());
+  parallel_for(
+      triangles.size(),
+      [&](std::size_t t) {
+        const Corners& k = triangles[t];
+        Sampled& s = samples[t];
+        s.area = norm(cross(k[1] - k[0], k[2] - k[0])) / 2;
+        auto distance = distance_from(t);
+        const double wanted = std::ceil(std::sqrt(longest_edge2(k)) / step);
+        const int n = int(std::clamp<double>(wanted, kMinIntervals, kMaxIntervals));
+        for_each_sample(n, [&](double u, double v) {
+          const Vec3 x = at(t, u, v);
+          s.add(x, distance(x));
+        });
+      },
+      kGrain);
+  return samples;
+}
+
+OneSidedDistance fold(const std::vector<Sampled>& samples) {
+  Sampled total;
+  for (const Sampled& s : samples) {
+    if (s.max > total.max) total.max = s.max, total.where = s.where;
+    total.sum += s.area * (s.sum / s.count);
+    total.area += s.area;
+  }
+  return {std::max(total.max, 0.0), total.area > 0 ? total.sum / total.area : 0, total.where};
+}
+
+/// \param id_of the id of the i-th triangle
+template <class IdOf>
+std::vector<FarSample> beyond(const std::vector<Sampled>& samples, double tolerance, IdOf&& id_of) {
+  std::vector<FarSample> far;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (samples[i].max > tolerance) far.push_back({id_of(i), samples[i].where, samples[i].max});
+  return far;
+}
+
+/// The mesh's surface triangles, without holes.
+struct OutputSurface {
+  std::vector<TriangleId> ids;
+  std::vector<Corners> corners;
+
+  explicit OutputSurface(const TetMesh& mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Triangle& s = mesh.triangles[t];
+      if (!s.alive()) continue;
+      ids.push_back(TriangleId(t));
+      corners.push_back({mesh.points[s.v[0]], mesh.points[s.v[1]], mesh.points[s.v[2]]});
+    }
+  }
+};
+
+std::vector<Corners> facets_of(const SurfaceModel& model) {
+  std::vector<Corners> facets(model.facets());
+  parallel_for(facets.size(),
+               [&](std::size_t f) { facets[f] = model.facet_corners(std::int32_t(f)); });
+  return facets;
+}
+
+Vec3 on_flat(const Corners& t, double u, double v) {
+  return (1 - u - v) * t[0] + u * t[1] + v * t[2];
+}
+
+std::vector<Sampled> sample_output(const OutputSurface& out, const SurfaceModel& model,
+                                   double step) {
+  const PatchTree tree(model);
+  return sample_all(
+      out.corners, step,
+      [&](std::size_t t, double u, double v) { return on_flat(out.corners[t], u, v); },
+      [&](std::size_t) {
+        return [&tree, last = NearestOnModel{}](const Vec3& x) mutable {
+          last = tree.nearest(x, last);
+          return std::sqrt(last.place.distance2);
+        };
+      });
+}
+
+/// The samples of the model's patches, measured by distance_from as in sample_all().
+template <class DistanceFrom>
+std::vector<Sampled> sample_model(const SurfaceModel& model, std::span<const Corners> facets,
+                                  double step, DistanceFrom&& distance_from) {
+  return sample_all(
+      facets, step,
+      [&](std::size_t f, double u, double v) {
+        return model.patch_of_facet(std::int32_t(f)).at(u, v);
+      },
+      distance_from);
+}
+
+std::vector<Sampled> sample_model_from(const OutputSurface& out, const SurfaceModel& model,
+                                       std::span<const Corners> facets, double step) {
+  const FacetTree tree(out.corners);
+  return sample_model(model, facets, step, [&](std::size_t) {
+    return [&tree, last = NearestFacet{}](const Vec3& x) mutable {
+      last = tree.nearest_from(x, last);
+      return std::sqrt(last.distance2);
+    };
+  });
+}
+
+double measure_bulge(const SurfaceModel& model, std::span<const Corners> facets, double step) {
+  const FacetTree tree(facets);
+  const std::vector<Sampled> samples = sample_model(model, facets, step, [&](std::size_t f) {
+    return [&tree, &own = facets[f], worst2 = 0.0](const Vec3& x) mutable {
+      // The other facets matter only to a sample that would raise the largest distance.
+      double d2 = closest_on_triangle(x, own[0], own[1], own[2]).distance2;
+      if (d2 <= worst2) return std::sqrt(d2);
+      if (const NearestFacet r = tree.nearest(x, d2); r.facet != kNone) d2 = r.distance2;
+      worst2 = std::max(worst2, d2);
+      return std::sqrt(d2);
+    };
+  });
+  return fold(samples).max;
+}
+
+}  // namespace
+
+SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel& model,
+                                         double step, double tolerance) {
+  const OutputSurface out(mesh);
+  const std::vector<Corners> facets = facets_of(model);
+  SurfaceDistance result;
+  const std::vector<Sampled> of_out = sample_output(out, model, step);
+  result.out_to_model = fold(of_out);
+  result.far_triangles = beyond(of_out, tolerance, [&](std::size_t i) { return out.ids[i]; });
+  const std::vector<Sampled> of_model = sample_model_from(out, model, facets, step);
+  result.model_to_out = fold(of_model);
+  result.far_facets = beyond(of_model, tolerance, [](std::size_t i) { return std::int32_t(i); });
+  result.bulge = measure_bulge(model, facets, step);
+  return result;
+}
+
+double default_sample_step(const TetMesh& mesh, const SurfaceModel& model) {
+  constexpr double kStepsAcrossBox = 400;
+  // A lattice of 9 intervals has 55 points.
+  constexpr double kMeanIntervals = 9;
+  Box box;
+  auto mean_edge = [](std::span<const Corners> triangles) {
+    double sum = 0;
+    for (const Corners& t : triangles) sum += longest_edge2(t);
+    return triangles.empty() ? 0 : std::sqrt(sum / double(triangles.size()));
+  };
+  const std::vector<Corners> facets = facets_of(model);
+  for (const Corners& t : facets)
+    for (const Vec3& p : t) box.add(p);
+  const double coarse = std::max(mean_edge(facets), mean_edge(OutputSurface(mesh).corners));
+  const double diagonal = facets.empty() ? 0 : distance(box.low, box.high);
+  // Any step does for surfaces without extent.
+  const double step = std::max(diagonal / kStepsAcrossBox, coarse / kMeanIntervals);
+  return step > 0 ? step : 1;
+}
+
+}  // namespace cavea

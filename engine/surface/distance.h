@@ -1,0 +1,51 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "cavea/mesh/tet_mesh.h"
+#include "cavea/surface/surface_model.h"
+
+namespace cavea {
+
+/// How far the samples of one surface are from another.
+struct OneSidedDistance {
+  double max = 0;
+  double mean = 0;  ///< weighted by area
+  Vec3 where;       ///< the sample that is farthest
+};
+
+/// A triangle or facet with a sample beyond the tolerance.
+struct FarSample {
+  std::int32_t id = kNone;  ///< TriangleId of the mesh, or facet of the model
+  Vec3 where;               ///< its farthest sample
+  double distance = 0;
+};
+
+/// The two-sided distance between a mesh's surface and the ideal surface, in the mesh's unit of
+/// length.
+struct SurfaceDistance {
+  OneSidedDistance out_to_model;  ///< of the mesh's triangles from the model's patches
+  OneSidedDistance model_to_out;  ///< of the model's patches from the mesh's triangles
+  double bulge = 0;  ///< largest distance of the model's patches from its own flat facets
+  std::vector<FarSample> far_triangles, far_facets;  ///< in the order of the ids
+
+  double max() const { return std::max(out_to_model.max, model_to_out.max); }
+};
+
+/// Measures the Hausdorff distance on samples: each triangle, and each patch over its facet, on a
+/// barycentric lattice whose spacing on the flat triangle is at most `step`, coarser where a
+/// triangle would have more than about 300 samples; its corners, edge midpoints and centroid are
+/// always among them. Each sample is measured against all of the other surface, whatever its
+/// patches. Infinite from a surface that is empty; 0 of one that is. The same bits at any number of
+/// threads. \param step greater than 0 \param tolerance triangles and facets beyond it are listed
+SurfaceDistance measure_surface_distance(
+    const TetMesh& mesh, const SurfaceModel& model, double step,
+    double tolerance = std::numeric_limits<double>::infinity());
+
+/// A step for measure_surface_distance(): 1/400 of the model's box diagonal, or more where that
+/// would take more than about 50 samples a triangle on the average of either surface.
+double default_sample_step(const TetMesh& mesh, const SurfaceModel& model);
+
+}  // namespace cavea

@@ -1,0 +1,54 @@
+#include "cavea/surface/facet_tree.h"
+
+#include "cavea/base/parallel.h"
+#include "cavea/geometry/closest.h"
+
+namespace cavea {
+namespace {
+
+std::vector<Box> boxes_of(std::span<const Corners> triangles) {
+  std::vector<Box> boxes(triangles.size());
+  parallel_for(triangles.size(), [&](std::size_t i) {
+    for (const Vec3& p : triangles[i]) boxes[i].add(p);
+  });
+  return boxes;
+}
+
+}  // namespace
+
+FacetTree::FacetTree(std::span<const Corners> triangles)
+    : tree_(boxes_of(triangles)), triangles_(triangles.size()) {
+  parallel_for(triangles.size(),
+               [&](std::size_t slot) { triangles_[slot] = triangles[tree_.order()[slot]]; });
+}
+
+NearestFacet FacetTree::on(const Vec3& p, std::size_t slot) const {
+  const Corners& t = triangles_[slot];
+  const ClosestOnTriangle c = closest_on_triangle(p, t[0], t[1], t[2]);
+  return {tree_.order()[slot], c.u, c.v, c.distance2, std::int32_t(slot)};
+}
+
+void FacetTree::improve(const Vec3& p, NearestFacet& best) const {
+  double bound2 = best.distance2;
+  tree_.visit_near(p, bound2, [&](std::size_t slot) {
+    const NearestFacet r = on(p, slot);
+    if (r.distance2 < bound2) best = r, bound2 = r.distance2;
+  });
+}
+
+NearestFacet FacetTree::nearest(const Vec3& p, double bound2) const {
+  NearestFacet best;
+  best.distance2 = bound2;
+  improve(p, best);
+  if (best.facet == kNone) best = {};
+  return best;
+}
+
+NearestFacet FacetTree::nearest_from(const Vec3& p, const NearestFacet& hint) const {
+  if (hint.slot == kNone) return nearest(p);
+  NearestFacet best = on(p, std::size_t(hint.slot));
+  improve(p, best);
+  return best;
+}
+
+}  // namespace cavea

@@ -1,0 +1,45 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "cavea/base/ids.h"
+#include "cavea/surface/box_tree.h"
+
+namespace cavea {
+
+/// A triangle's three corners.
+using Corners = std::array<Vec3, 3>;
+
+/// The triangle of a FacetTree nearest to a point.
+struct NearestFacet {
+  std::int32_t facet = kNone;  ///< index into the triangles given to the tree; none if none is near
+  double u = 0, v = 0;         ///< barycentric coordinates of its second and third corner
+  double distance2 = std::numeric_limits<double>::infinity();
+  std::int32_t slot = kNone;  ///< the tree's own number of it, for nearest_from()
+};
+
+/// The nearest of many flat triangles. Read-only after construction: many threads may ask at once.
+class FacetTree {
+ public:
+  explicit FacetTree(std::span<const Corners> triangles);
+
+  /// The triangle nearest to p; none if all are at least sqrt(bound2) away. Of several equally near
+  /// ones, one that p, the bound and the triangles fix.
+  NearestFacet nearest(const Vec3& p,
+                       double bound2 = std::numeric_limits<double>::infinity()) const;
+
+  /// The same without bound, sooner where `hint`, found for another point, is near to p too.
+  NearestFacet nearest_from(const Vec3& p, const NearestFacet& hint) const;
+
+ private:
+  NearestFacet on(const Vec3& p, std::size_t slot) const;
+  void improve(const Vec3& p, NearestFacet& best) const;
+
+  BoxTree tree_;
+  std::vector<Corners> triangles_;  ///< in the order of the slots
+};
+
+}  // namespace cavea

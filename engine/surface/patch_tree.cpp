@@ -1,0 +1,96 @@
+#include "cavea/surface/patch_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cavea/base/parallel.h"
+#include "cavea/geometry/closest.h"
+
+namespace cavea {
+namespace {
+
+/// Steps of the search on one patch. The start is off by about the angle between patch and facet,
+/// and a step takes an error e to about (distance / radius of curvature) e: three are plenty.
+constexpr int kMaxSteps = 4;
+/// A step that gains less than this share of the squared distance ends the search: it is worth half
+/// of this in the distance.
+constexpr double kWorthwhile = 1e-4;
+
+template <class F>
+void for_each_control_point(const BezierTriangle& p, F&& f) {
+  for (const Vec3& c : p.corner) f(c);
+  for (const auto& edge : p.edge)
+    for (const Vec3& c : edge) f(c);
+  f(p.center);
+}
+
+std::vector<Box> boxes_of(const SurfaceModel& model) {
+  std::vector<Box> boxes(model.facets());
+  parallel_for(boxes.size(), [&](std::size_t f) {
+    // A patch lies in the convex hull of its control points.
+    for_each_control_point(model.patch_of_facet(std::int32_t(f)),
+                           [&](const Vec3& c) { boxes[f].add(c); });
+  });
+  return boxes;
+}
+
+/// The largest distance of a control point from the flat facet: of any point of the patch, since
+/// the distance from a convex set is a convex function.
+double bulge_of(const BezierTriangle& p) {
+  double worst = 0;
+  for_each_control_point(p, [&](const Vec3& c) {
+    worst =
+        std::max(worst, closest_on_triangle(c, p.corner[0], p.corner[1], p.corner[2]).distance2);
+  });
+  return std::sqrt(worst);
+}
+
+}  // namespace
+
+NearestOnPatch closest_on_patch(const Vec3& p, const BezierTriangle& patch, double u, double v) {
+  const Vec3 start = patch.at(u, v);
+  NearestOnPatch best{u, v, start, distance2(start, p)};
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const auto [du, dv] = patch.derivatives(best.u, best.v);
+    const Vec3 a = best.point - best.u * du - best.v * dv;
+    const ClosestOnTriangle c = closest_on_triangle(p, a, a + du, a + dv);
+    const Vec3 x = patch.at(c.u, c.v);
+    const double d2 = distance2(x, p);
+    if (!(d2 < best.distance2)) break;
+    const bool done = d2 > (1 - kWorthwhile) * best.distance2;
+    best = {c.u, c.v, x, d2};
+    if (done) break;
+  }
+  return best;
+}
+
+PatchTree::PatchTree(const SurfaceModel& model)
+    : model_(model), tree_(boxes_of(model)), leaves_(model.facets()) {
+  parallel_for(leaves_.size(), [&](std::size_t slot) {
+    leaves_[slot] = {patch(slot).corner, bulge_of(patch(slot))};
+  });
+}
+
+NearestOnModel PatchTree::nearest(const Vec3& p, const NearestOnModel& hint) const {
+  NearestOnModel best;
+  double bound2 = best.place.distance2, bound = bound2;
+  auto look = [&](std::size_t slot) {
+    const Leaf& leaf = leaves_[slot];
+    const ClosestOnTriangle flat =
+        closest_on_triangle(p, leaf.corner[0], leaf.corner[1], leaf.corner[2]);
+    const double reach = bound + leaf.bulge;
+    if (!(flat.distance2 < reach * reach)) return;
+    const NearestOnPatch r = closest_on_patch(p, patch(slot), flat.u, flat.v);
+    if (!(r.distance2 < bound2)) return;
+    best = {r, tree_.order()[slot], std::int32_t(slot)};
+    bound2 = r.distance2, bound = std::sqrt(bound2);
+  };
+  if (hint.slot != kNone) look(std::size_t(hint.slot));
+  const std::int32_t seen = hint.slot;
+  tree_.visit_near(p, bound2, [&](std::size_t slot) {
+    if (std::int32_t(slot) != seen) look(slot);
+  });
+  return best;
+}
+
+}  // namespace cavea

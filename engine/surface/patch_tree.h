@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "cavea/base/ids.h"
+#include "cavea/surface/box_tree.h"
+#include "cavea/surface/surface_model.h"
+
+namespace cavea {
+
+/// The place of a Bezier triangle nearest to a point.
+struct NearestOnPatch {
+  double u = 0, v = 0;
+  Vec3 point;
+  double distance2 = std::numeric_limits<double>::infinity();
+};
+
+/// A place of the patch that is no farther from p than its places near (u, v): a constrained
+/// Gauss-Newton search from there, each step to the place nearest to p on the tangent plane.
+/// distance2 is that of a point of the patch, so never less than the patch's true distance.
+NearestOnPatch closest_on_patch(const Vec3& p, const BezierTriangle& patch, double u, double v);
+
+/// The place of a SurfaceModel nearest to a point.
+struct NearestOnModel {
+  NearestOnPatch place;
+  std::int32_t facet = kNone;  ///< whose patch it is on; none on an empty model
+  std::int32_t slot = kNone;   ///< the tree's own number of the facet, a hint for the next query
+};
+
+/// The nearest place of a whole SurfaceModel, over all its patches: what SurfaceModel::place()
+/// finds by walking from a hint, but sure to find it. Read-only after construction: many threads
+/// may ask at once. The model must outlive it.
+class PatchTree {
+ public:
+  explicit PatchTree(const SurfaceModel& model);
+
+  /// The place nearest to p. `hint`, found for another point, makes it
+  /// sooner where it is near to p too.
+  NearestOnModel nearest(const Vec3& p, const NearestOnModel& hint = {}) const;
+
+ private:
+  struct Leaf {
+    std::array<Vec3, 3> corner;
+    double bulge;  ///< no place of the patch is farther from the flat facet
+  };
+  const BezierTriangle& patch(std::size_t slot) const {
+    return model_.patch_of_facet(tree_.order()[slot]);
+  }
+
+  const SurfaceModel& model_;
+  BoxTree tree_;
+  std::vector<Leaf> leaves_;  ///< in the order of the slots
+};
+
+}  // namespace cavea
