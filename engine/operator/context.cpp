@@ -1,20 +1,47 @@
 #include "cavea/operator/context.h"
 
+#include <limits>
+
 namespace cavea {
 
-Verdict check_triangle(const OperatorContext& context, const std::array<Vec3, 3>& t, int patch,
-                       std::span<const Anchor> hints) {
+SurfaceFit fit_triangle(const OperatorContext& context, const std::array<Vec3, 3>& t, int patch,
+                        std::span<const Anchor> hints) {
+  constexpr SurfaceFit kNoFit{-1, std::numeric_limits<double>::infinity()};
+  const Vec3 n = normalized(cross(t[1] - t[0], t[2] - t[0]));
+  if (norm2(n) == 0) return kNoFit;
+  const SurfacePoint at = context.surface.place((t[0] + t[1] + t[2]) / 3, patch, hints);
+  if (at.anchor.facet == kNone) return kNoFit;
+  SurfaceFit fit{dot(n, context.surface.normal(at.anchor, patch)), at.distance2};
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 middle = (t[std::size_t(k)] + t[std::size_t(k + 1) % 3]) / 2;
+    const double d2 = context.surface.place(middle, patch, {&at.anchor, 1}).distance2;
+    fit.deviation2 = std::max(fit.deviation2, d2);
+  }
+  return fit;
+}
+
+SurfaceFit fit_of(const OperatorContext& c, const std::vector<TriangleId>& triangles) {
+  SurfaceFit fit;
+  for (TriangleId id : triangles) {
+    const Triangle& t = c.mesh.triangles[id];
+    const auto& a = c.mesh.anchors;
+    const Anchor hints[3] = {a[t.v[0]], a[t.v[1]], a[t.v[2]]};
+    fit.add(fit_triangle(c, {c.point(t.v[0]), c.point(t.v[1]), c.point(t.v[2])}, t.patch, hints));
+  }
+  return fit;
+}
+
+Verdict judge_surface(const OperatorContext& c, const SurfaceFit& fit,
+                      const std::vector<TriangleId>& old) {
   // Cosine of the largest angle between a triangle and the ideal surface below it: 60 degrees, wider
   // than half the default ridge angle so that coarse inputs are not stuck, narrow enough for no fold.
   constexpr double kFoldCosine = 0.5;
-  const Vec3 n = normalized(cross(t[1] - t[0], t[2] - t[0]));
-  if (norm2(n) == 0) return Verdict::kFolded;
-  const SurfacePoint at = context.surface.place((t[0] + t[1] + t[2]) / 3, patch, hints);
-  if (at.anchor.facet == kNone) return Verdict::kOffSurface;
-  if (dot(n, context.surface.normal(at.anchor, patch)) < kFoldCosine) return Verdict::kFolded;
-  const double tolerance2 = context.limits.tolerance * context.limits.tolerance;
-  if (at.distance2 > tolerance2) return Verdict::kOffSurface;
-  if (context.surface.deviation2(t, patch, {&at.anchor, 1}) > tolerance2) return Verdict::kOffSurface;
+  const double tolerance2 = c.limits.tolerance * c.limits.tolerance;
+  const bool folded = fit.cosine < kFoldCosine, off = fit.deviation2 > tolerance2;
+  if (!folded && !off) return Verdict::kAccept;
+  const SurfaceFit before = fit_of(c, old);
+  if (folded && fit.cosine < before.cosine) return Verdict::kFolded;
+  if (off && fit.deviation2 > before.deviation2) return Verdict::kOffSurface;
   return Verdict::kAccept;
 }
 

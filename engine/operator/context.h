@@ -69,9 +69,27 @@ inline constexpr double kFlat = 1e-6;
 /// factor; smaller gains would let operations go to and fro.
 inline constexpr double kQualityGain = 1.02;
 
-/// Whether a surface triangle of `patch` may stand at `corners`: not turned away from the ideal
-/// surface and within the tolerance of it. `hints` are anchors near it.
-Verdict check_triangle(const OperatorContext& context, const std::array<Vec3, 3>& corners, int patch,
-                       std::span<const Anchor> hints);
+/// How surface triangles fit the ideal surface: the worst of several.
+struct SurfaceFit {
+  double cosine = 1;      ///< between a triangle's normal and the ideal surface's below its centroid
+  double deviation2 = 0;  ///< largest squared distance of the sample points
+
+  void add(const SurfaceFit& other) {
+    cosine = std::min(cosine, other.cosine);
+    deviation2 = std::max(deviation2, other.deviation2);
+  }
+};
+
+/// Fit of one triangle of `patch`; `hints` are anchors near it.
+SurfaceFit fit_triangle(const OperatorContext& context, const std::array<Vec3, 3>& corners, int patch,
+                        std::span<const Anchor> hints);
+
+/// Fit of triangles of the mesh as they stand.
+SurfaceFit fit_of(const OperatorContext& context, const std::vector<TriangleId>& triangles);
+
+/// Whether new surface triangles may replace `old` ones: not turned away from the ideal surface and
+/// within the tolerance of it, or at least no worse in that than the old ones.
+Verdict judge_surface(const OperatorContext& context, const SurfaceFit& fit,
+                      const std::vector<TriangleId>& old);
 
 }  // namespace cavea

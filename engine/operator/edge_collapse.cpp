@@ -5,6 +5,10 @@
 namespace cavea {
 namespace {
 
+/// A collapse that raises the worst quality may make edges this many times too long: a later split
+/// mends them.
+constexpr double kRelaxedLong = 1.4;
+
 constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
 
 int index_in(const Triangle& t, VertexId v) {
@@ -96,20 +100,22 @@ void make_triangles(const OperatorContext& c, const std::vector<TriangleId>& fan
   }
 }
 
-/// The new surface stays near the ideal one, and near the vertex that goes.
+/// The new surface stays near the ideal one, and near the vertex that goes unless that was off it.
 Verdict check_surface(const OperatorContext& c, const Cavity& cavity) {
   const Shell& s = c.shell;
   const Vec3 p = c.point(s.p);
   double nearest2 = std::numeric_limits<double>::infinity();
+  SurfaceFit fit;
   for (const Triangle& t : cavity.triangles) {
     const std::array<Vec3, 3> x = {c.point(t.v[0]), c.point(t.v[1]), c.point(t.v[2])};
     nearest2 = std::min(nearest2, closest_on_triangle(p, x[0], x[1], x[2]).distance2);
     const Anchor hints[4] = {c.mesh.anchors[t.v[0]], c.mesh.anchors[t.v[1]], c.mesh.anchors[t.v[2]],
                              c.mesh.anchors[s.p]};
-    if (const Verdict v = check_triangle(c, x, t.patch, hints); v != Verdict::kAccept) return v;
+    fit.add(fit_triangle(c, x, t.patch, hints));
   }
   const double tolerance2 = c.limits.tolerance * c.limits.tolerance;
-  return nearest2 > tolerance2 ? Verdict::kOffSurface : Verdict::kAccept;
+  if (nearest2 > tolerance2 && !(c.tags(s.p) & tag::kOffSurface)) return Verdict::kOffSurface;
+  return judge_surface(c, fit, cavity.removed_triangles);
 }
 
 /// On a feature curve: the edge that bridges p stays near the curve and near p, and does not turn.
@@ -160,11 +166,11 @@ Verdict make_tets(OperatorContext& c, bool quality_gain, Cavity& cavity) {
   return cavity.tets.empty() ? Verdict::kBreaksTopology : Verdict::kAccept;
 }
 
-bool makes_long_edge(const OperatorContext& c, const Cavity& cavity) {
+bool makes_long_edge(const OperatorContext& c, double longest, const Cavity& cavity) {
   const VertexId q = c.shell.q;
   for (const NewTet& t : cavity.tets)
     for (VertexId v : t.v)
-      if (v != q && c.length(q, v) > c.limits.long_edge) return true;
+      if (v != q && c.length(q, v) > longest) return true;
   return false;
 }
 
@@ -177,7 +183,8 @@ Verdict edge_collapse(OperatorContext& c, bool quality_gain, Cavity& cavity) {
   gather_ball(c.mesh, s.p, c.marker, c.ball);
   if (c.ball.cut) return Verdict::kFrozen;
   if (const Verdict v = make_tets(c, quality_gain, cavity); v != Verdict::kAccept) return v;
-  if (makes_long_edge(c, cavity)) return Verdict::kBadLength;
+  if (makes_long_edge(c, quality_gain ? kRelaxedLong * c.limits.long_edge : c.limits.long_edge, cavity))
+    return Verdict::kBadLength;
   if (c.tags(s.p) & tag::kSurface) {
     c.fan.clear();
     for_each_triangle(c.mesh, c.ball, [&](TriangleId t) { c.fan.push_back(t); });

@@ -104,12 +104,11 @@ Verdict swap_triangles(OperatorContext& c, Cavity& cavity) {
   }
   const Anchor hints[4] = {c.mesh.anchors[s.p], c.mesh.anchors[s.q], c.mesh.anchors[a],
                            c.mesh.anchors[b]};
-  for (const Triangle& t : cavity.triangles) {
-    const std::array<Vec3, 3> x = {c.point(t.v[0]), c.point(t.v[1]), c.point(t.v[2])};
-    if (const Verdict v = check_triangle(c, x, t.patch, hints); v != Verdict::kAccept) return v;
-  }
+  SurfaceFit fit;
+  for (const Triangle& t : cavity.triangles)
+    fit.add(fit_triangle(c, {c.point(t.v[0]), c.point(t.v[1]), c.point(t.v[2])}, t.patch, hints));
   cavity.removed_triangles = {s.triangles[0].triangle, s.triangles[1].triangle};
-  return Verdict::kAccept;
+  return judge_surface(c, fit, cavity.removed_triangles);
 }
 
 }  // namespace

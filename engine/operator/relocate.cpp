@@ -7,6 +7,8 @@ namespace {
 
 /// Shares of the way to the target that are tried in turn.
 constexpr double kShares[] = {1, 0.5, 0.2};
+/// Balls with a worse tet than this are also tried for its sake alone.
+constexpr double kBadBall = 0.4;
 /// The mean quality of a ball must rise by this much where the worst does not.
 constexpr double kMeanGain = 0.002;
 constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
@@ -18,6 +20,29 @@ struct BallQuality {
 /// Height of a regular tet over its face, in edges.
 constexpr double kRegularHeight = 0.816496580927726;
 
+/// Where the vertex would make a tet of its ball as regular as the face opposite allows; false for a
+/// face without area.
+bool ideal_apex(const OperatorContext& c, VertexId v, TetId t, Vec3& apex) {
+  const int* f = kFaceVertices[c.mesh.local_index(t, v)];
+  const auto& k = c.mesh.tets[t];
+  const Vec3 x = c.point(k[f[0]]), y = c.point(k[f[1]]), z = c.point(k[f[2]]);
+  const Vec3 n = cross(y - x, z - x);  // away from v
+  const double edge = std::sqrt((distance2(x, y) + distance2(y, z) + distance2(z, x)) / 3);
+  const double area2 = norm(n);
+  if (!(area2 > 0)) return false;
+  apex = (x + y + z) / 3 - (kRegularHeight * edge / area2) * n;
+  return true;
+}
+
+/// The same for the worst tet of the ball alone.
+Vec3 ideal_for_worst(const OperatorContext& c, VertexId v) {
+  TetId worst = c.ball.tets[0];
+  for (TetId t : c.ball.tets)
+    if (c.mesh.qualities[t] < c.mesh.qualities[worst]) worst = t;
+  Vec3 apex;
+  return ideal_apex(c, v, worst, apex) ? apex : c.point(v);
+}
+
 /// Mean, weighted towards bad tets, of the places of the vertex that would make each tet of its ball
 /// as regular as its face opposite allows.
 Vec3 ideal_place(const OperatorContext& c, VertexId v) {
@@ -25,16 +50,11 @@ Vec3 ideal_place(const OperatorContext& c, VertexId v) {
   Vec3 sum{};
   double weights = 0;
   for (TetId t : c.ball.tets) {
-    const int* f = kFaceVertices[c.mesh.local_index(t, v)];
-    const auto& k = c.mesh.tets[t];
-    const Vec3 x = c.point(k[f[0]]), y = c.point(k[f[1]]), z = c.point(k[f[2]]);
-    const Vec3 n = cross(y - x, z - x);  // away from v
-    const double edge = std::sqrt((distance2(x, y) + distance2(y, z) + distance2(z, x)) / 3);
-    const double area2 = norm(n);
-    if (!(area2 > 0)) continue;
+    Vec3 apex;
+    if (!ideal_apex(c, v, t, apex)) continue;
     const double q = std::max(kWorstCounted, double(c.mesh.qualities[t]));
     const double w = 1 / (q * q);
-    sum += w * ((x + y + z) / 3 - (kRegularHeight * edge / area2) * n);
+    sum += w * apex;
     weights += w;
   }
   return weights > 0 ? sum / weights : c.point(v);
@@ -88,14 +108,15 @@ bool curve_neighbors(const OperatorContext& c, VertexId v, std::array<VertexId, 
 }
 
 Verdict check_fan(const OperatorContext& c, VertexId v, const NewVertex& to) {
+  SurfaceFit fit;
   for (TriangleId id : c.fan) {
     const Triangle& t = c.mesh.triangles[id];
     std::array<Vec3, 3> x;
-    for (int k = 0; k < 3; ++k) x[k] = t.v[k] == v ? to.point : c.point(t.v[k]);
+    for (std::size_t k = 0; k < 3; ++k) x[k] = t.v[k] == v ? to.point : c.point(t.v[k]);
     const Anchor hints[3] = {to.anchor, c.mesh.anchors[t.v[t.v[0] == v ? 1 : 0]], c.mesh.anchors[v]};
-    if (const Verdict r = check_triangle(c, x, t.patch, hints); r != Verdict::kAccept) return r;
+    fit.add(fit_triangle(c, x, t.patch, hints));
   }
-  return Verdict::kAccept;
+  return judge_surface(c, fit, c.fan);
 }
 
 /// Where a surface vertex goes for a wished place: onto its curve or its patch.
@@ -146,6 +167,18 @@ Verdict relocate_on_surface(OperatorContext& c, VertexId v, NewVertex& to) {
   return why;
 }
 
+bool move_towards(OperatorContext& c, VertexId v, const Vec3& target, const BallQuality& before,
+                  NewVertex& to) {
+  const Vec3 from = c.point(v);
+  for (const double share : kShares) {
+    to.point = from + share * (target - from);
+    BallQuality after;
+    if (evaluate(c, v, to.point, before.worst, after) && better(after, before, c.ball.tets.size()))
+      return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Verdict relocate(OperatorContext& c, VertexId v, NewVertex& to) {
@@ -157,13 +190,9 @@ Verdict relocate(OperatorContext& c, VertexId v, NewVertex& to) {
   to = {c.point(v), c.mesh.sizes[v], tags, c.mesh.vertex_refs[v], c.mesh.anchors[v]};
   if (tags & tag::kSurface) return relocate_on_surface(c, v, to);
   const BallQuality before = now(c);
-  const Vec3 from = c.point(v), target = ideal_place(c, v);
-  for (const double share : kShares) {
-    to.point = from + share * (target - from);
-    BallQuality after;
-    if (evaluate(c, v, to.point, before.worst, after) && better(after, before, c.ball.tets.size()))
-      return Verdict::kAccept;
-  }
+  if (move_towards(c, v, ideal_place(c, v), before, to)) return Verdict::kAccept;
+  if (before.worst < kBadBall && move_towards(c, v, ideal_for_worst(c, v), before, to))
+    return Verdict::kAccept;
   return Verdict::kWorseQuality;
 }
 

@@ -30,11 +30,16 @@ void for_each_asked_edge(const TetMesh& m, F&& f) {
   }
 }
 
+/// Shorter edges are not split for the fit: the sizes follow the curvature, so what still does not fit
+/// has other reasons.
+constexpr double kFittedLength = 0.9;
+
 /// How far the middle of a surface edge is from the ideal surface, in tolerances.
 double misfit(const PartState& s, const Triangle& t, int k) {
   const OperatorContext& c = s.context;
   const VertexId a = t.v[(k + 1) % 3], b = t.v[(k + 2) % 3];
   if (distance(c.point(a), c.point(b)) < s.settings.shortest_fitted) return 0;
+  if (c.length(a, b) < kFittedLength || ((c.tags(a) | c.tags(b)) & tag::kOffSurface)) return 0;
   const Anchor hints[2] = {c.mesh.anchors[a], c.mesh.anchors[b]};
   const Vec3 middle = (c.point(a) + c.point(b)) / 2;
   const SurfacePoint at = t.edge_tag[k] & tag::kFeature ? c.surface.place_on_curve(middle, hints)
