@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 
 #include "cavea/base/error.h"
 #include "cavea/io/formats.h"
-#include "cavea/mesh/check.h"
 #include "empty_values.h"
 #include "exit_status.h"
 #include "load.h"
+#include "mesh_info.h"
 #include "output_names.h"
 #include "staging.h"
 #include "summary_json.h"
@@ -20,49 +19,6 @@
 
 namespace cavea::program {
 namespace {
-
-struct Info {
-  MeshSummary summary;
-  bool sizes_known = false;
-  /// Edge lengths in the mesh's unit, and their histogram relative to the mean.
-  LengthStatistics euclidean, relative;
-  std::vector<std::string> violations;
-  std::vector<std::string> warnings;
-};
-
-LengthStatistics lengths_in_size(TetMesh& mesh, float size) {
-  std::fill(mesh.sizes.begin(), mesh.sizes.end(), size);
-  return length_statistics(mesh);
-}
-
-/// Why the file as it stands is not sound: what build() had to put right in its tets, and what
-/// check() finds in the mesh that came out of it.
-std::vector<std::string> find_violations(const LoadedMesh& loaded) {
-  std::vector<std::string> found;
-  const auto add = [&found](std::int64_t count, const char* what) {
-    if (count) found.push_back(fmt::format("{} {}", grouped(count), what));
-  };
-  add(loaded.repairs.turned_tets, "tets of negative volume (measured turned over)");
-  add(loaded.repairs.flat_tets, "tets of zero volume");
-  const CheckResult result = check(loaded.mesh, {.allow_flat_tets = true});
-  if (!result.sound()) found.push_back(result.message());
-  return found;
-}
-
-Info measure(LoadedMesh& loaded) {
-  Info info;
-  TetMesh& mesh = loaded.mesh;
-  info.warnings = loaded.warnings;
-  info.violations = find_violations(loaded);
-  info.summary.counts = count(mesh);
-  info.summary.quality = quality_statistics(mesh);
-  info.sizes_known =
-      !mesh.sizes.empty() && *std::min_element(mesh.sizes.begin(), mesh.sizes.end()) > 0;
-  if (info.sizes_known) info.summary.lengths = length_statistics(mesh);
-  info.euclidean = lengths_in_size(mesh, 1);
-  info.relative = lengths_in_size(mesh, static_cast<float>(info.euclidean.mean));
-  return info;
-}
 
 Json to_json(const InfoArguments& arguments, const Info& info) {
   Json json = {{"version", CAVEA_VERSION},
@@ -157,8 +113,7 @@ int run_info(const InfoArguments& arguments) {
   std::vector<std::string> warnings;
   const MeshData data = read_mesh(arguments.file, &warnings);
   try {
-    LoadedMesh loaded = build_loaded(data, std::move(warnings));
-    return report_mesh(arguments, measure(loaded));
+    return report_mesh(arguments, measure(arguments.file, data, std::move(warnings)));
   } catch (const InputError& e) {
     return report_no_mesh(arguments, e.what());
   }

@@ -49,16 +49,20 @@ void check_outputs(const NamedFile& input, const std::vector<NamedFile>& outputs
   }
 }
 
+fs::path sizes_beside(const fs::path& mesh) {
+  for (const FormatInfo& format : formats())
+    if (mesh.extension() == format.extension && !format.sizes_extension.empty())
+      return fs::path(mesh).replace_extension(format.sizes_extension);
+  return {};
+}
+
 std::vector<NamedFile> files_of_mesh(const fs::path& name) {
   if (!is_writable_format(name))
     throw OptionError(fmt::format("-o {}: no format to write is known by the extension '{}'",
                                   name.string(), name.extension().string()));
   std::vector<NamedFile> files = {{"-o", name}};
-  const fs::path extension = name.extension();
-  if (extension == ".mesh" || extension == ".meshb") {
-    const char* sizes = extension == ".mesh" ? ".sol" : ".solb";
-    files.push_back({"the sizes beside -o", fs::path(name).replace_extension(sizes)});
-  }
+  const fs::path sizes = sizes_beside(name);
+  if (!sizes.empty()) files.push_back({"the sizes beside -o", sizes});
   return files;
 }
 

@@ -16,6 +16,9 @@ struct NamedFile {
 /// one in a directory that is missing or not writable. \throw OptionError naming the file.
 void check_outputs(const NamedFile& input, const std::vector<NamedFile>& outputs);
 
+/// Where the sizes at the vertices of a mesh file are; empty if its format has no such file.
+std::filesystem::path sizes_beside(const std::filesystem::path& mesh);
+
 /// The files that a mesh written under `name` consists of: itself, and the sizes beside a Medit
 /// one. \throw OptionError if the extension is not one that can be written
 std::vector<NamedFile> files_of_mesh(const std::filesystem::path& name);
