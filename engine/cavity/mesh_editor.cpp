@@ -1,6 +1,7 @@
 #include "cavea/cavity/mesh_editor.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cavea/base/error.h"
 
@@ -221,13 +222,21 @@ void MeshEditor::commit(const Cavity& cavity) {
 
 void MeshEditor::move(VertexId v, const NewVertex& to, const std::vector<TetId>& tets,
                       const std::vector<float>& qualities) {
+  // Smaller changes do not turn a refusal into an acceptance often enough to pay for asking again.
+  constexpr float kQualityChange = 0.03f;
+  constexpr double kLengthChange = 0.05;  // in wanted sizes
+  const bool far = distance(mesh_.points[v], to.point) > kLengthChange * to.size;
   mesh_.points[v] = to.point;
   mesh_.sizes[v] = to.size;
   mesh_.vertex_tags[v] = to.tags;
   mesh_.anchors[v] = to.anchor;
   for (std::size_t i = 0; i < tets.size(); ++i) {
-    mesh_.qualities[tets[i]] = qualities[i];
-    mesh_.tet_flags[tets[i]] |= tet_flag::kAskAll;
+    const TetId t = tets[i];
+    std::uint8_t ask = tet_flag::kAskMove;
+    if (std::abs(mesh_.qualities[t] - qualities[i]) > kQualityChange) ask |= tet_flag::kAskSwap;
+    if (far) ask |= tet_flag::kAskLength;
+    mesh_.qualities[t] = qualities[i];
+    mesh_.tet_flags[t] |= ask;
   }
 }
 

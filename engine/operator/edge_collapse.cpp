@@ -166,11 +166,11 @@ Verdict make_tets(OperatorContext& c, bool quality_gain, Cavity& cavity) {
   return cavity.tets.empty() ? Verdict::kBreaksTopology : Verdict::kAccept;
 }
 
-bool makes_long_edge(const OperatorContext& c, double longest, const Cavity& cavity) {
-  const VertexId q = c.shell.q;
-  for (const NewTet& t : cavity.tets)
-    for (VertexId v : t.v)
-      if (v != q && c.length(q, v) > longest) return true;
+bool makes_long_edge(const OperatorContext& c, double longest) {
+  const Shell& s = c.shell;
+  for (TetId t : c.ball.tets)
+    for (VertexId v : c.mesh.tets[t])
+      if (v != s.q && v != s.p && c.length(s.q, v) > longest) return true;
   return false;
 }
 
@@ -182,9 +182,9 @@ Verdict edge_collapse(OperatorContext& c, bool quality_gain, Cavity& cavity) {
   if (const Verdict v = may_merge(c); v != Verdict::kAccept) return v;
   gather_ball(c.mesh, s.p, c.marker, c.ball);
   if (c.ball.cut) return Verdict::kFrozen;
-  if (const Verdict v = make_tets(c, quality_gain, cavity); v != Verdict::kAccept) return v;
-  if (makes_long_edge(c, quality_gain ? kRelaxedLong * c.limits.long_edge : c.limits.long_edge, cavity))
+  if (makes_long_edge(c, (quality_gain ? kRelaxedLong : 1) * c.limits.long_edge))
     return Verdict::kBadLength;
+  if (const Verdict v = make_tets(c, quality_gain, cavity); v != Verdict::kAccept) return v;
   if (c.tags(s.p) & tag::kSurface) {
     c.fan.clear();
     for_each_triangle(c.mesh, c.ball, [&](TriangleId t) { c.fan.push_back(t); });

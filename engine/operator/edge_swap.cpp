@@ -39,10 +39,11 @@ class RingTriangulation {
   /// Worse quality of the two tets on a triangle of the ring; 0 if not above the limit.
   double triangle(int i, int k, int j, double limit) const {
     const VertexId a = ring_[i], b = ring_[k], c = ring_[j];
-    const double over = context_.quality(q_, a, c, b);
-    if (over <= limit) return 0;
-    const double under = context_.quality(p_, a, b, c);
-    if (under <= limit) return 0;
+    const Vec3 x = context_.point(a), y = context_.point(b), z = context_.point(c);
+    if (!quality_exceeds(context_.point(q_), x, z, y, limit) ||
+        !quality_exceeds(context_.point(p_), x, y, z, limit))
+      return 0;
+    const double over = context_.quality(q_, a, c, b), under = context_.quality(p_, a, b, c);
     if (!context_.positive(q_, a, c, b) || !context_.positive(p_, a, b, c)) return 0;
     return std::min(over, under);
   }

@@ -9,6 +9,9 @@
 namespace cavea {
 namespace {
 
+/// Face swaps of better tets succeed less than once in a thousand.
+constexpr double kFaceSwapBelow = 0.5;
+
 /// The quality worklist of one part. Each edge and face is asked once after anything around it has
 /// changed: a tet is stamped when it changes and when it asks, and what an edge's shell asked after its
 /// last change need not be asked again from another tet of the shell.
@@ -58,8 +61,9 @@ class SwapQueue {
     ++clock_;
     for (const auto& e : kEdgeVertices)
       if (swap_edge(t, e[0], e[1])) return;
-    for (int f = 0; f < 4; ++f)
-      if (swap_face(t, f)) return;
+    if (quality < kFaceSwapBelow)
+      for (int f = 0; f < 4; ++f)
+        if (swap_face(t, f)) return;
     asked_[t] = clock_;
     if (quality < s_.settings.repair_below) collapse_for_quality(t);
   }
