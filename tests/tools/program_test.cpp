@@ -132,7 +132,7 @@ TEST_F(RunTest, StoppedBySignalsItWritesNothing) {
   // Small enough a size that no machine ends the run before the signal comes.
   const std::vector<std::string> command = {CAVEA_PROGRAM, "remesh",   kSample,
                                             "-o",          "out.mesh", "--hsiz",
-                                            "0.2",         "--report", "report.json"};
+                                            "0.5",         "--report", "report.json"};
   constexpr double kSecondsUntilStop = 0.5;
   EXPECT_EQ(run(command, kSecondsUntilStop, SIGINT).status, 128 + SIGINT);
   EXPECT_EQ(run(command, kSecondsUntilStop, SIGTERM).status, 128 + SIGTERM);
