@@ -54,6 +54,13 @@ Phase polish(const ResolvedOptions& o) {
 
 }  // namespace
 
+std::vector<Phase> repair_recipe(const ResolvedOptions& o) {
+  Phase adapt = fine(o), finish = polish(o);
+  adapt.rounds = 2;
+  finish.rounds = 1;
+  return {adapt, finish};
+}
+
 std::vector<Phase> recipe(const ResolvedOptions& o) { return {rough(o), fine(o), polish(o)}; }
 
 }  // namespace cavea

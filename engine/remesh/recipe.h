@@ -22,4 +22,7 @@ struct Phase {
 /// and a last polish of quality.
 std::vector<Phase> recipe(const ResolvedOptions& options);
 
+/// The phases that adapt an almost finished mesh to sizes that have changed in places.
+std::vector<Phase> repair_recipe(const ResolvedOptions& options);
+
 }  // namespace cavea

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cavea/base/error.h"
 #include "cavea/base/memory.h"
 #include "cavea/base/parallel.h"
@@ -13,6 +15,7 @@
 #include "cavea/remesh/bulk.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/resolved.h"
+#include "cavea/surface/distance.h"
 #include "cavea/surface/features.h"
 #include "cavea/surface/surface_model.h"
 
@@ -21,6 +24,9 @@ namespace {
 
 /// How far the smooth model may leave the input's triangles, in tolerances.
 constexpr double kMaxBulge = 3;
+
+/// Places that are still too far from the surface after this many repairs are left and reported.
+constexpr int kRepairs = 3;
 
 /// One run of remesh(): the mesh it works on and what it reports.
 class Run {
@@ -35,7 +41,12 @@ class Run {
     timed("analysis", [&] { analyse(); });
     timed("bulk", [&] { refine_in_bulk(mesh_, *surface_, [&] { resize(); }); });
     for (const Phase& phase : recipe(r_)) timed(phase.name, [&] { run_phase(phase); });
-    timed("measurement", [&] { measure(); });
+    timed("measurement", [&] { distance_ = measure_distance(); });
+    for (int k = 0; k < kRepairs && !r_.uniform() && distance_.max() > r_.hausd; ++k) {
+      timed("repair", [&] { repair(); });
+      timed("measurement", [&] { distance_ = measure_distance(); });
+    }
+    timed("statistics", [&] { measure(); });
   }
 
   TetMesh mesh_;
@@ -90,7 +101,25 @@ class Run {
     }
   }
 
+  SurfaceDistance measure_distance() const {
+    return measure_surface_distance(mesh_, *surface_, default_sample_step(mesh_, *surface_), r_.hausd);
+  }
+
+  /// Makes the surface finer where it is too far from the model: what the curvature did not tell.
+  void repair() {
+    // The distance goes with the square of the size; a little more for good measure.
+    auto factor = [&](double distance) { return std::max(0.5, 0.9 * std::sqrt(r_.hausd / distance)); };
+    for (const FarSample& f : distance_.far_facets) surface_->shrink_size(f.id, factor(f.distance));
+    for (const FarSample& f : distance_.far_triangles)
+      for (VertexId v : mesh_.triangles[std::size_t(f.id)].v)
+        surface_->shrink_size(mesh_.anchors[std::size_t(v)], factor(f.distance));
+    resize();
+    for (Phase phase : repair_recipe(r_)) run_phase(phase);
+  }
+
   void measure() {
+    report_.surface_distance = distance_.max();
+    report_.bulge = distance_.bulge;
     report_.after = {count(mesh_), quality_statistics(mesh_), length_statistics(mesh_)};
     for (int o = 0; o < kOperators; ++o)
       for (int v = 0; v < kVerdicts; ++v)
@@ -113,12 +142,16 @@ class Run {
     add("worst quality", options_.min_quality, q.worst, q.worst >= options_.min_quality, q.worst_place);
     add("conforming lengths", options_.min_conform, l.conforming_percent(),
         l.conforming_percent() >= options_.min_conform, l.longest_place);
+    const SurfaceDistance& d = distance_;
+    add("surface distance", r_.hausd, d.max(), d.max() <= r_.hausd,
+        d.out_to_model.max > d.model_to_out.max ? d.out_to_model.where : d.model_to_out.where);
   }
 
   const SizeField& field_;
   const Options& options_;
   ResolvedOptions r_;
   std::optional<SurfaceModel> surface_;
+  SurfaceDistance distance_;
   VerdictTable verdicts_;
   Timer timer_;
 };

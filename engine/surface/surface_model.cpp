@@ -184,4 +184,11 @@ void SurfaceModel::shrink_size(std::int32_t facet, double factor) {
   for (std::int32_t v : facets_[facet]) sizes_[v] = std::max(settings_.hmin, sizes_[v] * factor);
 }
 
+void SurfaceModel::shrink_size(const Anchor& anchor, double factor) {
+  if (anchor.facet == kNone) return;
+  if (!is_curve(anchor)) return shrink_size(anchor.facet, factor);
+  for (std::int32_t v : curves_[-2 - anchor.facet].v)
+    sizes_[v] = std::max(settings_.hmin, sizes_[v] * factor);
+}
+
 }  // namespace cavea

@@ -61,6 +61,7 @@ class SurfaceModel {
 
   /// Reduces the wanted size around a facet by a factor (never below hmin); not while others read.
   void shrink_size(std::int32_t facet, double factor);
+  void shrink_size(const Anchor& anchor, double factor);
 
   static std::int32_t curve_anchor(std::int32_t edge) { return -2 - edge; }
   static bool is_curve(const Anchor& a) { return a.facet <= -2; }
