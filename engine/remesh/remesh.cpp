@@ -109,10 +109,12 @@ class Run {
   void repair() {
     // The distance goes with the square of the size; a little more for good measure.
     auto factor = [&](double distance) { return std::max(0.5, 0.9 * std::sqrt(r_.hausd / distance)); };
-    for (const FarSample& f : distance_.far_facets) surface_->shrink_size(f.id, factor(f.distance));
+    auto shrink = [&](const FarSample& f, const Anchor& anchor) {
+      surface_->shrink_sizes(f.where, anchor, surface_->size(anchor), factor(f.distance));
+    };
+    for (const FarSample& f : distance_.far_facets) shrink(f, {f.id, 1.0f / 3, 1.0f / 3});
     for (const FarSample& f : distance_.far_triangles)
-      for (VertexId v : mesh_.triangles[std::size_t(f.id)].v)
-        surface_->shrink_size(mesh_.anchors[std::size_t(v)], factor(f.distance));
+      shrink(f, mesh_.anchors[std::size_t(mesh_.triangles[std::size_t(f.id)].v[0])]);
     resize();
     for (Phase phase : repair_recipe(r_)) run_phase(phase);
   }

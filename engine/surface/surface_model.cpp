@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_set>
 
 #include "cavea/base/error.h"
 #include "cavea/geometry/closest.h"
@@ -61,7 +62,9 @@ SurfaceModel::WalkResult SurfaceModel::walk(const Vec3& guess, std::int32_t star
       if (r.distance2 < next.distance2) next = r;
     };
     const double w = 1 - best.u - best.v;
-    const bool at0 = w <= 0, at1 = best.u <= 0, at2 = best.v <= 0;  // on the edge opposite corner k
+    // On the edge opposite corner 0, u and v are rounded and so is w.
+    constexpr double kOnEdge = 1e-15;
+    const bool at0 = w <= kOnEdge, at1 = best.u <= 0, at2 = best.v <= 0;  // on the edge opposite corner k
     if (at0) consider(inside_patch(best.facet, 0));
     if (at1) consider(inside_patch(best.facet, 1));
     if (at2) consider(inside_patch(best.facet, 2));
@@ -180,15 +183,20 @@ double SurfaceModel::size(const Anchor& anchor) const {
          anchor.v * sizes_[v[2]];
 }
 
-void SurfaceModel::shrink_size(std::int32_t facet, double factor) {
-  for (std::int32_t v : facets_[facet]) sizes_[v] = std::max(settings_.hmin, sizes_[v] * factor);
-}
-
-void SurfaceModel::shrink_size(const Anchor& anchor, double factor) {
+void SurfaceModel::shrink_sizes(const Vec3& place, const Anchor& anchor, double radius, double factor) {
   if (anchor.facet == kNone) return;
-  if (!is_curve(anchor)) return shrink_size(anchor.facet, factor);
-  for (std::int32_t v : curves_[-2 - anchor.facet].v)
-    sizes_[v] = std::max(settings_.hmin, sizes_[v] * factor);
+  const double radius2 = radius * radius;
+  std::vector<std::int32_t> reached{
+      is_curve(anchor) ? curve_facets_[curves_[-2 - anchor.facet].first_facet] : anchor.facet};
+  std::unordered_set<std::int32_t> seen(reached.begin(), reached.end()), shrunk;
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (const std::int32_t v : facets_[reached[i]]) {
+      if (!shrunk.insert(v).second) continue;
+      sizes_[v] = std::max(settings_.hmin, sizes_[v] * factor);
+      if (distance2(points_[v], place) > radius2) continue;
+      for (std::int32_t k = vertex_first_[v]; k < vertex_first_[v + 1]; ++k)
+        if (seen.insert(vertex_facets_[k]).second) reached.push_back(vertex_facets_[k]);
+    }
 }
 
 }  // namespace cavea

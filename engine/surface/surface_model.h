@@ -59,9 +59,9 @@ class SurfaceModel {
     return {points_[facets_[f][0]], points_[facets_[f][1]], points_[facets_[f][2]]};
   }
 
-  /// Reduces the wanted size around a facet by a factor (never below hmin); not while others read.
-  void shrink_size(std::int32_t facet, double factor);
-  void shrink_size(const Anchor& anchor, double factor);
+  /// Reduces by a factor (never below hmin) the wanted sizes within `radius` of a place, on the facets
+  /// reached from the anchor over facets that are as near; not while others read.
+  void shrink_sizes(const Vec3& place, const Anchor& anchor, double radius, double factor);
 
   static std::int32_t curve_anchor(std::int32_t edge) { return -2 - edge; }
   static bool is_curve(const Anchor& a) { return a.facet <= -2; }
