@@ -1,8 +1,20 @@
 #include "cavea/geometry/closest.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cavea {
+namespace {
+
+ClosestOnTriangle closest_on_sides(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const ClosestOnSegment ab = closest_on_segment(p, a, b), ac = closest_on_segment(p, a, c),
+                         bc = closest_on_segment(p, b, c);
+  if (ab.distance2 <= ac.distance2 && ab.distance2 <= bc.distance2) return {ab.t, 0, ab.distance2};
+  if (ac.distance2 <= bc.distance2) return {0, ac.t, ac.distance2};
+  return {1 - bc.t, bc.t, bc.distance2};
+}
+
+}  // namespace
 
 // Regions of the triangle as in Ericson, Real-Time Collision Detection, section 5.1.5.
 ClosestOnTriangle closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -16,18 +28,24 @@ ClosestOnTriangle closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& 
   const double d3 = dot(ab, bp), d4 = dot(ac, bp);
   if (d3 >= 0 && d4 <= d3) return result(1, 0);
   const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return result(d1 > d3 ? d1 / (d1 - d3) : 0, 0);
+  if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) return result(d1 / (d1 - d3), 0);
   const Vec3 cp = p - c;
   const double d5 = dot(ab, cp), d6 = dot(ac, cp);
   if (d6 >= 0 && d5 <= d6) return result(0, 1);
   const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return result(0, d2 > d6 ? d2 / (d2 - d6) : 0);
+  if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) return result(0, d2 / (d2 - d6));
   const double va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
     const double sum = (d4 - d3) + (d5 - d6), w = sum > 0 ? (d4 - d3) / sum : 0;
     return result(1 - w, w);
   }
+  // Relative to its terms, below this the squared area is rounding: the triangle has none, or is so
+  // far away that its sides are as near as its inside.
+  constexpr double kRounding = 1e-13;
   const double sum = va + vb + vc;
+  const double terms = std::abs(d1 * d4) + std::abs(d3 * d2) + std::abs(d5 * d2) +
+                       std::abs(d1 * d6) + std::abs(d3 * d6) + std::abs(d5 * d4);
+  if (!(sum > kRounding * terms)) return closest_on_sides(p, a, b, c);
   return result(vb / sum, vc / sum);
 }
 

@@ -1,0 +1,182 @@
+#include "cavea/surface/distance.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "cavea/base/parallel.h"
+#include "surface/shapes.h"
+
+namespace cavea {
+namespace {
+
+using test::modelled_ball;
+using test::modelled_cube;
+
+constexpr double kStep = 0.02;
+
+/// Largest distance of patch points from the facet points of the same coordinates.
+double largest_offset(const SurfaceModel& model) {
+  constexpr int n = 12;
+  double worst = 0;
+  for (std::int32_t f = 0; f < std::int32_t(model.facets()); ++f) {
+    const auto [a, b, c] = model.facet_corners(f);
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; i + j <= n; ++j) {
+        const double u = double(i) / n, v = double(j) / n;
+        worst = std::max(
+            worst, distance(model.patch_of_facet(f).at(u, v), (1 - u - v) * a + u * b + v * c));
+      }
+  }
+  return worst;
+}
+
+TEST(SurfaceDistance, OfTheInputIsItsBulge) {
+  const auto ball = modelled_ball(6);
+  const SurfaceDistance d = measure_surface_distance(ball.mesh, ball.model, kStep);
+  EXPECT_GT(d.bulge, 0.005);
+  EXPECT_EQ(d.model_to_out.max, d.bulge);
+  EXPECT_LE(d.out_to_model.max, largest_offset(ball.model));
+  EXPECT_NEAR(d.out_to_model.max, d.bulge, 0.02 * d.bulge);
+  EXPECT_LT(d.out_to_model.mean, d.out_to_model.max);
+  EXPECT_GT(d.out_to_model.mean, 0);
+}
+
+TEST(SurfaceDistance, OfAFlatShapeIsZero) {
+  const auto cube = modelled_cube(2);
+  const TetMesh finer = build(test::kuhn_cube(5)).mesh;
+  const SurfaceDistance d = measure_surface_distance(finer, cube.model, kStep, 1e-12);
+  EXPECT_LT(d.max(), 1e-15);
+  EXPECT_LT(d.bulge, 1e-15);
+  EXPECT_TRUE(d.far_triangles.empty());
+  EXPECT_TRUE(d.far_facets.empty());
+}
+
+TEST(SurfaceDistance, OfAShiftedBallIsTheShift) {
+  const auto ball = modelled_ball(10);
+  TetMesh shifted = ball.mesh;
+  constexpr double kShift = 0.2;
+  for (Vec3& p : shifted.points) p.x += kShift;
+  const SurfaceDistance d = measure_surface_distance(shifted, ball.model, kStep);
+  EXPECT_NEAR(d.out_to_model.max, kShift, 0.005);
+  EXPECT_NEAR(std::abs(d.out_to_model.where.x - kShift), 1, 0.01);
+  EXPECT_NEAR(d.model_to_out.max, kShift, 0.005);
+  EXPECT_NEAR(std::abs(d.model_to_out.where.x), 1, 0.01);
+  // The mean of |cos| over the sphere is a half.
+  EXPECT_NEAR(d.out_to_model.mean, kShift / 2, 0.005);
+}
+
+TEST(SurfaceDistance, OfASmallerBallIsTheDifferenceOfTheRadii) {
+  const auto ball = modelled_ball(8);
+  TetMesh smaller = modelled_ball(12).mesh;
+  for (Vec3& p : smaller.points) p *= 0.9;
+  const SurfaceDistance d = measure_surface_distance(smaller, ball.model, kStep);
+  EXPECT_NEAR(d.out_to_model.max, 0.1, 0.01);
+  EXPECT_NEAR(d.out_to_model.mean, 0.1, 0.005);
+  EXPECT_NEAR(d.model_to_out.max, 0.1, 0.01);
+}
+
+/// The cube of 5^3 cells without its middle cell of one face: out is wrong where the model is
+/// missed.
+TEST(SurfaceDistance, SeesWhatIsLostFromBothSides) {
+  const auto cube = modelled_cube(5);
+  const TetMesh dented = build(test::kuhn_grid(5, [](int i, int j, int k) {
+                           return !(i == 2 && j == 2 && k == 4);
+                         })).mesh;
+  const SurfaceDistance d = measure_surface_distance(dented, cube.model, kStep, 0.05);
+  EXPECT_NEAR(d.out_to_model.max, 0.2, 1e-12);
+  EXPECT_NEAR(d.out_to_model.where.z, 0.8, 1e-12);
+  EXPECT_NEAR(d.model_to_out.max, 0.1, 1e-12);
+  EXPECT_NEAR(distance(d.model_to_out.where, {0.5, 0.5, 1}), 0, 1e-12);
+  // Walls and floor of the dent; the lid's two facets.
+  EXPECT_EQ(d.far_triangles.size(), 10u);
+  EXPECT_EQ(d.far_facets.size(), 2u);
+}
+
+TEST(SurfaceDistance, ListsWhatIsBeyondTheTolerance) {
+  const auto cube = modelled_cube(3);
+  TetMesh mesh = cube.mesh;
+  const auto moved = std::size_t(std::find_if(mesh.points.begin(), mesh.points.end(),
+                                              [](const Vec3& p) {
+                                                return p.z == 1 && p.x > 0.3 && p.x < 0.4 &&
+                                                       p.y > 0.6 && p.y < 0.7;
+                                              }) -
+                                 mesh.points.begin());
+  ASSERT_LT(moved, mesh.points.size());
+  mesh.points[moved].z = 1.1;
+  std::vector<TriangleId> around;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (std::ranges::count(mesh.triangles[t].v, VertexId(moved))) around.push_back(TriangleId(t));
+  const SurfaceDistance d = measure_surface_distance(mesh, cube.model, kStep, 0.01);
+  ASSERT_EQ(d.far_triangles.size(), around.size());
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    EXPECT_EQ(d.far_triangles[i].id, around[i]);
+    EXPECT_NEAR(d.far_triangles[i].distance, 0.1, 1e-12);
+    EXPECT_EQ(d.far_triangles[i].where, mesh.points[moved]);
+  }
+}
+
+TEST(SurfaceDistance, SkipsHoles) {
+  const auto cube = modelled_cube(2);
+  TetMesh mesh = cube.mesh;
+  mesh.triangles[0].v = {kNone, kNone, kNone};
+  const SurfaceDistance d = measure_surface_distance(mesh, cube.model, kStep, 0.01);
+  EXPECT_LT(d.out_to_model.max, 1e-15);
+  // The facet is the only one that the mesh misses.
+  ASSERT_EQ(d.far_facets.size(), 1u);
+  EXPECT_EQ(d.far_facets[0].id, 0);
+}
+
+TEST(SurfaceDistance, FromNothingIsInfinite) {
+  const auto cube = modelled_cube(1);
+  const SurfaceDistance d = measure_surface_distance(TetMesh{}, cube.model, kStep);
+  EXPECT_EQ(d.model_to_out.max, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(d.out_to_model.max, 0);
+}
+
+TEST(SurfaceDistance, AFinerStepFindsAtLeastAlmostAsMuch) {
+  const auto ball = modelled_ball(4);
+  const TetMesh coarse = modelled_ball(3).mesh;
+  const double fine = measure_surface_distance(coarse, ball.model, 0.02).max();
+  const double rough = measure_surface_distance(coarse, ball.model, 0.3).max();
+  EXPECT_NEAR(rough, fine, 0.15 * fine);
+  EXPECT_GE(fine, rough * (1 - 1e-3));
+}
+
+std::vector<std::uint64_t> bits(const SurfaceDistance& d) {
+  std::vector<std::uint64_t> all;
+  const auto add = [&](double x) { all.push_back(std::bit_cast<std::uint64_t>(x)); };
+  const auto add_place = [&](const Vec3& p) { add(p.x), add(p.y), add(p.z); };
+  for (const OneSidedDistance& side : {d.out_to_model, d.model_to_out})
+    add(side.max), add(side.mean), add_place(side.where);
+  add(d.bulge);
+  for (const auto& list : {d.far_triangles, d.far_facets})
+    for (const FarSample& s : list) add(s.id), add(s.distance), add_place(s.where);
+  return all;
+}
+
+TEST(SurfaceDistance, HasTheSameBitsAtAnyNumberOfThreads) {
+  const auto ball = modelled_ball(8);
+  const TetMesh other = modelled_ball(12).mesh;
+  std::vector<std::uint64_t> first;
+  for (const int threads : {1, 2, 3, 8})
+    run_in_arena(threads, [&] {
+      const auto now = bits(measure_surface_distance(other, ball.model, kStep, 0.004));
+      if (threads == 1) first = now;
+      EXPECT_EQ(now, first) << threads << " threads";
+    });
+  EXPECT_GT(first.size(), 20u);
+}
+
+TEST(DefaultSampleStep, FollowsTheBoxAndTheCoarserSurface) {
+  const auto fine = modelled_ball(12);
+  const auto coarse = modelled_ball(2);
+  const double step = default_sample_step(fine.mesh, fine.model);
+  EXPECT_GE(step, 2 * std::sqrt(3.0) / 400 * 0.99);
+  EXPECT_GT(default_sample_step(coarse.mesh, fine.model), step);
+  EXPECT_GT(default_sample_step(fine.mesh, coarse.model), step);
+  EXPECT_GT(default_sample_step(TetMesh{}, test::modelled(TetMesh{}).model), 0);
+}
+
+}  // namespace
+}  // namespace cavea

@@ -1,0 +1,209 @@
+#include "cavea/surface/features.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "cavea/surface/edges.h"
+#include "surface/shapes.h"
+
+namespace cavea {
+namespace {
+
+using test::kuhn_cube;
+
+/// The number of surface edges that have all of some tags.
+int edges_with(const TetMesh& mesh, Tag tags) {
+  int n = 0;
+  for_each_edge(sorted_edge_sides(mesh.triangles), [&](const EdgeSide* side, const EdgeSide*) {
+    n += (mesh.triangles[side->triangle].edge_tag[side->k] & tags) == tags;
+  });
+  return n;
+}
+
+std::set<VertexId> vertices_with(const TetMesh& mesh, Tag tags) {
+  std::set<VertexId> found;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if ((mesh.vertex_tags[v] & tags) == tags) found.insert(VertexId(v));
+  return found;
+}
+
+std::set<VertexId> box_corners(const TetMesh& mesh) {
+  std::set<VertexId> found;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const Vec3& p = mesh.points[v];
+    const auto extreme = [](double x) { return x == 0 || x == 1; };
+    if (extreme(p.x) && extreme(p.y) && extreme(p.z)) found.insert(VertexId(v));
+  }
+  return found;
+}
+
+std::int32_t vertex_at(const MeshData& data, const Vec3& p) {
+  for (std::size_t v = 0; v < data.vertices.size(); ++v)
+    if (distance(data.vertices[v], p) < 1e-9) return std::int32_t(v);
+  ADD_FAILURE() << "no vertex there";
+  return 0;
+}
+
+enum class Kind { kPlain, kRidge, kRequired };
+
+/// Lists the edges of a path of points of the top face z = 1.
+void list_path(MeshData& data, const std::vector<std::array<double, 2>>& path, Kind kind) {
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const std::int32_t e = std::int32_t(data.edges.size());
+    data.edges.push_back({vertex_at(data, {path[i][0], path[i][1], 1}),
+                          vertex_at(data, {path[i + 1][0], path[i + 1][1], 1})});
+    data.edge_refs.push_back(7);
+    if (kind == Kind::kRidge) data.ridges.push_back(e);
+    if (kind == Kind::kRequired) data.required_edges.push_back(e);
+  }
+}
+
+/// The corners inside the top face of a cube with these lists, as (x, y).
+std::set<std::array<double, 2>> top_corners(const MeshData& data) {
+  TetMesh mesh = build(data).mesh;
+  classify_features(mesh, {});
+  std::set<std::array<double, 2>> found;
+  for (const VertexId v : vertices_with(mesh, tag::kCorner)) {
+    const Vec3& p = mesh.points[v];
+    if (p.z == 1 && p.x > 0 && p.x < 1 && p.y > 0 && p.y < 1) found.insert({p.x, p.y});
+  }
+  return found;
+}
+
+using Places = std::set<std::array<double, 2>>;
+
+TEST(ClassifyFeatures, OfTheCube) {
+  for (const int n : {1, 2, 5}) {
+    TetMesh mesh = build(kuhn_cube(n)).mesh;
+    EXPECT_EQ(classify_features(mesh, {}), 6);
+    EXPECT_EQ(edges_with(mesh, tag::kRidge), 12 * n);
+    EXPECT_EQ(vertices_with(mesh, tag::kRidge).size(), 8u + 12u * unsigned(n - 1));
+    EXPECT_EQ(vertices_with(mesh, tag::kCorner), box_corners(mesh));
+    EXPECT_EQ(vertices_with(mesh, tag::kSurface).size(), 6u * unsigned(n * n) + 2);
+  }
+}
+
+TEST(ClassifyFeatures, PatchesAreTheFacesOfTheCube) {
+  TetMesh mesh = build(kuhn_cube(3)).mesh;
+  classify_features(mesh, {});
+  std::set<std::pair<int, std::array<int, 3>>> faces;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 n = normalized(cross(mesh.points[t.v[1]] - mesh.points[t.v[0]],
+                                    mesh.points[t.v[2]] - mesh.points[t.v[0]]));
+    faces.insert({t.patch, {int(std::lround(n.x)), int(std::lround(n.y)), int(std::lround(n.z))}});
+  }
+  EXPECT_EQ(faces.size(), 6u);
+}
+
+TEST(ClassifyFeatures, WithoutDetectionOnlyWhatTheMeshCarries) {
+  MeshData data = kuhn_cube(4);
+  TetMesh plain = build(data).mesh;
+  EXPECT_EQ(classify_features(plain, {45, false}), 1);
+  EXPECT_EQ(edges_with(plain, tag::kRidge), 0);
+  EXPECT_TRUE(vertices_with(plain, tag::kCorner).empty());
+
+  list_path(data, {{0.25, 0.5}, {0.5, 0.5}}, Kind::kRidge);
+  TetMesh carrying = build(data).mesh;
+  EXPECT_EQ(classify_features(carrying, {45, false}), 1);
+  EXPECT_EQ(edges_with(carrying, tag::kRidge), 1);
+}
+
+TEST(ClassifyFeatures, TheAngleDecidesWhatIsSharp) {
+  TetMesh blunt = build(kuhn_cube(2)).mesh, sharp = blunt;
+  EXPECT_EQ(classify_features(blunt, {91, true}), 1);
+  EXPECT_EQ(classify_features(sharp, {89, true}), 6);
+}
+
+TEST(ClassifyFeatures, EndsOfADanglingRidgeAreCorners) {
+  MeshData data = kuhn_cube(4);
+  list_path(data, {{0.25, 0.5}, {0.5, 0.5}, {0.75, 0.5}}, Kind::kRidge);
+  EXPECT_EQ(top_corners(data), (Places{{0.25, 0.5}, {0.75, 0.5}}));
+}
+
+TEST(ClassifyFeatures, ADanglingRidgePartsNoPatch) {
+  MeshData data = kuhn_cube(4);
+  list_path(data, {{0.25, 0.5}, {0.5, 0.5}, {0.75, 0.5}}, Kind::kRidge);
+  TetMesh mesh = build(data).mesh;
+  EXPECT_EQ(classify_features(mesh, {}), 6);
+}
+
+TEST(ClassifyFeatures, ASharpTurnIsACornerAndABluntOneIsNot) {
+  MeshData sharp = kuhn_cube(4);
+  list_path(sharp, {{0.25, 0.5}, {0.5, 0.5}, {0.5, 0.25}}, Kind::kPlain);
+  EXPECT_EQ(top_corners(sharp), (Places{{0.25, 0.5}, {0.5, 0.5}, {0.5, 0.25}}));
+
+  MeshData blunt = kuhn_cube(4);  // 45 degrees on the grid, less when the last vertex is pulled
+  list_path(blunt, {{0.25, 0.25}, {0.5, 0.25}, {0.75, 0.5}}, Kind::kPlain);
+  blunt.vertices[vertex_at(blunt, {0.75, 0.5, 1})].y = 0.45;
+  EXPECT_EQ(top_corners(blunt), (Places{{0.25, 0.25}, {0.75, 0.45}}));
+}
+
+TEST(ClassifyFeatures, CurvesOfDifferentKindsMeetInACorner) {
+  MeshData data = kuhn_cube(4);
+  list_path(data, {{0.25, 0.5}, {0.5, 0.5}}, Kind::kRidge);
+  list_path(data, {{0.5, 0.5}, {0.75, 0.5}}, Kind::kPlain);
+  EXPECT_EQ(top_corners(data), (Places{{0.25, 0.5}, {0.5, 0.5}, {0.75, 0.5}}));
+}
+
+TEST(ClassifyFeatures, ThreeFeatureEdgesMeetInACorner) {
+  MeshData data = kuhn_cube(4);
+  list_path(data, {{0.25, 0.5}, {0.5, 0.5}, {0.75, 0.5}}, Kind::kRidge);
+  list_path(data, {{0.5, 0.5}, {0.5, 0.25}}, Kind::kRidge);
+  EXPECT_TRUE(top_corners(data).contains({0.5, 0.5}));
+}
+
+TEST(ClassifyFeatures, RequiredEdgesEndPatches) {
+  MeshData data = kuhn_cube(4);
+  list_path(data, {{0, 0.5}, {0.25, 0.5}, {0.5, 0.5}, {0.75, 0.5}, {1, 0.5}}, Kind::kRequired);
+  TetMesh mesh = build(data).mesh;
+  EXPECT_EQ(classify_features(mesh, {}), 7);
+}
+
+TEST(ClassifyFeatures, EdgesBetweenReferencesOfTriangles) {
+  MeshData data = kuhn_cube(2);
+  TetMesh mesh = build(data).mesh;
+  for (Triangle& t : mesh.triangles) {
+    const Vec3 c = (mesh.points[t.v[0]] + mesh.points[t.v[1]] + mesh.points[t.v[2]]) / 3;
+    t.ref = c.z == 1 && c.x > 0.5 ? 2 : 1;
+  }
+  EXPECT_EQ(classify_features(mesh, {}), 7);
+  // Around half of the top face: 2 edges inside it, and 2 + 1 + 1 on ridges.
+  EXPECT_EQ(edges_with(mesh, tag::kReferenceEdge), 6);
+  EXPECT_EQ(edges_with(mesh, tag::kReferenceEdge | tag::kRidge), 4);
+}
+
+TEST(ClassifyFeatures, AnInterfaceMeetsTheBoundaryInNonManifoldEdges) {
+  MeshData data = kuhn_cube(4);
+  test::set_refs(data, [](const Vec3& c) { return c.x < 0.5 ? 1 : 2; });
+  TetMesh mesh = build(data).mesh;
+  // Four faces of the cube are parted in two; the interface is a patch of its own.
+  EXPECT_EQ(classify_features(mesh, {}), 2 + 4 * 2 + 1);
+  EXPECT_EQ(edges_with(mesh, tag::kNonManifold), 4 * 4);
+  std::set<VertexId> corners = box_corners(mesh);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const Vec3& p = mesh.points[v];
+    if (p.x == 0.5 && (p.y == 0 || p.y == 1) && (p.z == 0 || p.z == 1)) corners.insert(VertexId(v));
+  }
+  EXPECT_EQ(vertices_with(mesh, tag::kCorner), corners);
+}
+
+TEST(ClassifyFeatures, APinchedVertexIsACorner) {
+  // Two opposite cells of the 2^3 grid touch in its middle vertex alone.
+  const MeshData data = test::kuhn_grid(2, [](int i, int j, int k) { return i == j && j == k; });
+  TetMesh mesh = build(data).mesh;
+  EXPECT_EQ(classify_features(mesh, {91, true}), 2);
+  const std::set<VertexId> corners = vertices_with(mesh, tag::kCorner);
+  ASSERT_EQ(corners.size(), 1u);
+  EXPECT_LT(distance(mesh.points[*corners.begin()], {0.5, 0.5, 0.5}), 1e-12);
+}
+
+TEST(ClassifyFeatures, ABallHasNone) {
+  TetMesh mesh = build(test::ball(6)).mesh;
+  EXPECT_EQ(classify_features(mesh, {}), 1);
+  EXPECT_EQ(edges_with(mesh, tag::kRidge), 0);
+  EXPECT_TRUE(vertices_with(mesh, tag::kCorner).empty());
+}
+
+}  // namespace
+}  // namespace cavea

@@ -1,0 +1,246 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "cavea/surface/patch_tree.h"
+#include "cavea/surface/surface_model.h"
+#include "surface/shapes.h"
+
+namespace cavea {
+namespace {
+
+using test::modelled_ball;
+using test::modelled_cube;
+using test::modelled_cylinder;
+using test::Random;
+
+Vec3 at(const SurfaceModel& model, const Anchor& a) {
+  return model.patch_of_facet(a.facet).at(a.u, a.v);
+}
+
+/// Coordinates of anchors are floats.
+constexpr double kAnchorRounding = 1e-6;
+
+/// Some vertex of the mesh whose anchor is on a facet, by the throw of a die.
+VertexId random_smooth_vertex(const TetMesh& mesh, Random& random) {
+  for (;;) {
+    const VertexId v = random.below(std::int32_t(mesh.points.size()));
+    if (mesh.anchors[v].facet >= 0) return v;
+  }
+}
+
+TEST(SurfaceModel, OfTheCubeIsExactlyFlat) {
+  const auto cube = modelled_cube(3);
+  EXPECT_EQ(cube.patches, 6);
+  for (std::int32_t f = 0; f < std::int32_t(cube.model.facets()); ++f) {
+    const auto [a, b, c] = cube.model.facet_corners(f);
+    const Vec3 n = normalized(cross(b - a, c - a));
+    for (const auto& [u, v] : {std::pair{0.2, 0.3}, {0.5, 0.5}, {1.0 / 3, 1.0 / 3}})
+      EXPECT_LT(std::abs(dot(cube.model.patch_of_facet(f).at(u, v) - a, n)), 1e-15);
+  }
+}
+
+TEST(SurfaceModel, AnchorsOfTheMeshStandOnItsVertices) {
+  for (const auto& shape : {modelled_cube(3), modelled_ball(5), modelled_cylinder(4)})
+    for (std::size_t v = 0; v < shape.mesh.points.size(); ++v) {
+      const Anchor& a = shape.mesh.anchors[v];
+      EXPECT_EQ(a.facet != kNone, (shape.mesh.vertex_tags[v] & tag::kSurface) != 0);
+      const bool on_curve =
+          (shape.mesh.vertex_tags[v] & tag::kRidge) && !(shape.mesh.vertex_tags[v] & tag::kCorner);
+      EXPECT_EQ(SurfaceModel::is_curve(a), on_curve);
+      if (a.facet >= 0) {
+        EXPECT_LT(distance(at(shape.model, a), shape.mesh.points[v]), 1e-15);
+      }
+    }
+}
+
+TEST(SurfaceModel, OfABallIsNearerToTheSphereThanItsFacets) {
+  for (const int n : {4, 8}) {
+    const auto ball = modelled_ball(n);
+    double flat = 0, smooth = 0;
+    for (std::int32_t f = 0; f < std::int32_t(ball.model.facets()); ++f) {
+      const auto [a, b, c] = ball.model.facet_corners(f);
+      for (const auto& [u, v] : {std::pair{0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}, {1.0 / 3, 1.0 / 3}}) {
+        flat = std::max(flat, 1 - norm((1 - u - v) * a + u * b + v * c));
+        smooth = std::max(smooth, std::abs(1 - norm(ball.model.patch_of_facet(f).at(u, v))));
+      }
+    }
+    EXPECT_LT(smooth, 0.35 * flat) << "n " << n;
+  }
+}
+
+TEST(SurfaceModel, BulgeIsBounded) {
+  TetMesh mesh = build(test::ball(4)).mesh;
+  classify_features(mesh, {});
+  constexpr double kBound = 1e-3;
+  const SurfaceModel model(mesh, {0.001, kBound, 1e-3, 10});
+  for (std::int32_t f = 0; f < std::int32_t(model.facets()); ++f) {
+    const auto [a, b, c] = model.facet_corners(f);
+    const BezierTriangle& p = model.patch_of_facet(f);
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 &from = p.corner[(k + 1) % 3], &to = p.corner[(k + 2) % 3];
+      EXPECT_LE(distance(p.edge[k][0], from + (to - from) / 3), kBound * (1 + 1e-9));
+      EXPECT_LE(distance(p.edge[k][1], to + (from - to) / 3), kBound * (1 + 1e-9));
+    }
+    // A center half as far again as the mean of the edges' control points.
+    EXPECT_LE(distance(p.center, (a + b + c) / 3), 1.5 * kBound * (1 + 1e-9));
+  }
+}
+
+TEST(SurfaceModel, PlaceFindsThePlaceOnAFlatFaceFromAnywhereOnIt) {
+  const auto cube = modelled_cube(4);
+  Random random(1);
+  int walked = 0;
+  while (walked < 500) {
+    const Vec3 p{random.unit(), random.unit(), 1};
+    const VertexId v = random_smooth_vertex(cube.mesh, random);
+    if (cube.mesh.points[v].z != 1) continue;
+    int top = kNone;
+    for (const Triangle& t : cube.mesh.triangles)
+      if (t.v[0] == v || t.v[1] == v || t.v[2] == v)
+        if (cube.mesh.points[t.v[0]].z == 1 && cube.mesh.points[t.v[1]].z == 1 &&
+            cube.mesh.points[t.v[2]].z == 1)
+          top = t.patch;
+    ++walked;
+    const SurfacePoint s = cube.model.place(p + Vec3{0, 0, 0.01}, top, {&cube.mesh.anchors[v], 1});
+    EXPECT_LT(distance(s.point, p), 1e-12) << "seed 1, walk " << walked;
+    EXPECT_LT(distance(at(cube.model, s.anchor), p), kAnchorRounding);
+    EXPECT_NEAR(s.distance2, 1e-4, 1e-12);
+  }
+}
+
+TEST(SurfaceModel, PlaceIsTheNearestPlaceOfTheModel) {
+  const auto ball = modelled_ball(8);
+  const PatchTree tree(ball.model);
+  for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Random random(seed);
+    // Outside, where a convex surface has no second place that is nearer than all around it. The
+    // facets' polyhedron is not quite convex, so the walk begins on the near side.
+    const Vec3 guess = random.between(1, 1.05) * test::random_direction(random);
+    VertexId v = random_smooth_vertex(ball.mesh, random);
+    while (dot(ball.mesh.points[v], guess) < 0) v = random_smooth_vertex(ball.mesh, random);
+    const SurfacePoint s = ball.model.place(guess, 0, {&ball.mesh.anchors[v], 1});
+    ASSERT_GE(s.anchor.facet, 0);
+    EXPECT_LT(distance(at(ball.model, s.anchor), s.point), kAnchorRounding);
+    EXPECT_NEAR(s.distance2, distance2(s.point, guess), 1e-15);
+    const double nearest = std::sqrt(tree.nearest(guess).place.distance2);
+    EXPECT_GE(std::sqrt(s.distance2), nearest * (1 - 1e-4));
+    // Two fixed-point steps leave a little of the way.
+    EXPECT_LE(std::sqrt(s.distance2), nearest + 1e-4);
+  }
+}
+
+TEST(SurfaceModel, PlaceKeepsToThePatch) {
+  const auto cube = modelled_cube(2);
+  for (std::size_t t = 0; t < cube.mesh.triangles.size(); ++t) {
+    const Triangle& s = cube.mesh.triangles[t];
+    const Anchor hint{std::int32_t(t), 0.25f, 0.25f};
+    const SurfacePoint here = cube.model.place({0.5, 0.5, 0.5}, s.patch, {&hint, 1});
+    EXPECT_DOUBLE_EQ(here.distance2, 0.25);
+    const SurfacePoint elsewhere = cube.model.place({0.5, 0.5, 0.5}, s.patch + 1, {&hint, 1});
+    EXPECT_EQ(elsewhere.distance2, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(elsewhere.anchor.facet, kNone);
+  }
+}
+
+TEST(SurfaceModel, PlaceOnCurveFollowsTheRim) {
+  const auto cylinder = modelled_cylinder(8);
+  EXPECT_EQ(cylinder.patches, 3);
+  // 32 chords around: a circle's cubic is off by far less than the chord's height.
+  const double height = 1 - std::cos(std::numbers::pi / 32);
+  Random random(3);
+  for (std::size_t v = 0; v < cylinder.mesh.points.size(); ++v) {
+    if (!(cylinder.mesh.vertex_tags[v] & tag::kRidge)) continue;
+    EXPECT_FALSE(cylinder.mesh.vertex_tags[v] & tag::kCorner);
+    const double angle = random.between(0, 2 * std::numbers::pi);
+    const Vec3 wanted{std::cos(angle), std::sin(angle), cylinder.mesh.points[v].z};
+    // The walk downhill along the rim is sure from within a half turn.
+    if (dot(wanted, cylinder.mesh.points[v]) < wanted.z * wanted.z) continue;
+    const SurfacePoint s = cylinder.model.place_on_curve(
+        1.01 * wanted - Vec3{0, 0, 0.01 * wanted.z}, {&cylinder.mesh.anchors[v], 1});
+    EXPECT_TRUE(SurfaceModel::is_curve(s.anchor));
+    EXPECT_LT(distance(s.point, wanted), height) << "seed 3, vertex " << v;
+    EXPECT_LT(std::abs(std::hypot(s.point.x, s.point.y) - 1), 0.3 * height);
+  }
+}
+
+TEST(SurfaceModel, PlaceOnCurveBetweenCornersFindsTheirEdge) {
+  const auto cube = modelled_cube(1);
+  for (const Triangle& t : cube.mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      if (!(t.edge_tag[k] & tag::kRidge)) continue;
+      const VertexId a = t.v[(k + 1) % 3], b = t.v[(k + 2) % 3];
+      const Vec3 middle = (cube.mesh.points[a] + cube.mesh.points[b]) / 2;
+      const Anchor hints[2] = {cube.mesh.anchors[a], cube.mesh.anchors[b]};
+      const SurfacePoint s = cube.model.place_on_curve(middle, hints);
+      EXPECT_LT(distance(s.point, middle), 1e-15);
+    }
+}
+
+TEST(SurfaceModel, NormalsOfABallPointOutwards) {
+  const auto ball = modelled_ball(8);
+  for (std::size_t v = 0; v < ball.mesh.points.size(); ++v) {
+    const Anchor& a = ball.mesh.anchors[v];
+    if (a.facet == kNone) continue;
+    EXPECT_GT(dot(ball.model.normal(a, 0), normalized(ball.mesh.points[v])), 0.98);
+  }
+}
+
+TEST(SurfaceModel, SizesFollowTheCurvature) {
+  // sqrt(9 eps R / 2), the paper's section 4.2, for radius 1.
+  const double wanted = std::sqrt(4.5 * test::kSettings.tolerance);
+  const auto ball = modelled_ball(8);
+  for (const Anchor& a : ball.mesh.anchors)
+    if (a.facet != kNone) {
+      EXPECT_NEAR(ball.model.size(a), wanted, 0.1 * wanted);
+    }
+  const auto cylinder = modelled_cylinder(8);
+  for (std::size_t v = 0; v < cylinder.mesh.points.size(); ++v) {
+    const Anchor& a = cylinder.mesh.anchors[v];
+    if (a.facet == kNone) continue;
+    const Vec3& p = cylinder.mesh.points[v];
+    const bool on_lid = p.x * p.x + p.y * p.y < 1 - 1e-9;
+    const double expected = on_lid ? test::kSettings.hmax : wanted;
+    EXPECT_NEAR(cylinder.model.size(a), expected, 0.1 * expected);
+  }
+}
+
+TEST(SurfaceModel, ShrinkSizesReachesAsFarAsItIsTold) {
+  auto ball = modelled_ball(6);
+  const double before = ball.model.size({0, 0.25f, 0.25f});
+  const Vec3 pole = ball.mesh.points[0];
+  constexpr double kRadius = 0.7;
+  ball.model.shrink_sizes(pole, ball.mesh.anchors[0], kRadius, 0.5);
+  for (std::size_t v = 0; v < ball.mesh.points.size(); ++v) {
+    const Anchor& a = ball.mesh.anchors[v];
+    if (a.facet == kNone) continue;
+    const double size = ball.model.size(a), away = distance(ball.mesh.points[v], pole);
+    if (away < kRadius) {
+      EXPECT_LT(size, 0.6 * before);
+    } else if (away > 2 * kRadius) {
+      EXPECT_GT(size, 0.8 * before);
+    }
+  }
+  ball.model.shrink_sizes(pole, ball.mesh.anchors[0], kRadius, 1e-9);
+  EXPECT_NEAR(ball.model.size(ball.mesh.anchors[0]), test::kSettings.hmin, 1e-12);
+}
+
+TEST(SurfaceModel, DeviationIsTheWorstOfTheSamples) {
+  const auto ball = modelled_ball(8);
+  const PatchTree tree(ball.model);
+  for (std::size_t i = 0; i < ball.mesh.triangles.size(); i += 7) {
+    const Triangle& t = ball.mesh.triangles[i];
+    const std::array<Vec3, 3> k = {ball.mesh.points[t.v[0]], ball.mesh.points[t.v[1]],
+                                   ball.mesh.points[t.v[2]]};
+    const Anchor hints[3] = {ball.mesh.anchors[t.v[0]], ball.mesh.anchors[t.v[1]],
+                             ball.mesh.anchors[t.v[2]]};
+    double worst2 = tree.nearest((k[0] + k[1] + k[2]) / 3).place.distance2;
+    for (int e = 0; e < 3; ++e)
+      worst2 = std::max(worst2, tree.nearest((k[e] + k[(e + 1) % 3]) / 2).place.distance2);
+    EXPECT_NEAR(std::sqrt(ball.model.deviation2(k, t.patch, hints)), std::sqrt(worst2), 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace cavea
