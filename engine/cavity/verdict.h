@@ -27,12 +27,19 @@ inline const char* name(Verdict v) {
   return kNames[static_cast<std::size_t>(v)];
 }
 
-enum class Operator : std::uint8_t { kEdgeSplit, kEdgeCollapse, kEdgeSwap, kFaceSwap, kRelocate };
-inline constexpr int kOperators = 5;
+enum class Operator : std::uint8_t {
+  kEdgeSplit,
+  kEdgeCollapse,
+  kEdgeSwap,
+  kFaceSwap,
+  kRelocate,
+  kEdgeStar
+};
+inline constexpr int kOperators = 6;
 
 inline const char* name(Operator o) {
   constexpr std::array<const char*, kOperators> kNames = {"edge_split", "edge_collapse", "edge_swap",
-                                                          "face_swap", "relocate"};
+                                                          "face_swap",  "relocate",      "edge_star"};
   return kNames[static_cast<std::size_t>(o)];
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "cavea/operator/pattern_search.h"
+
 namespace cavea {
 namespace {
 
@@ -138,6 +140,24 @@ Vec3 surface_target(const OperatorContext& c, VertexId v) {
   return (sum / (2.0 * double(c.fan.size())) + ideal_place(c, v)) / 2;
 }
 
+/// The same as climb() for a surface vertex: every place tried is on the surface.
+Verdict climb_on_surface(OperatorContext& c, VertexId v, const BallQuality& before, NewVertex& to) {
+  constexpr double kFirstStep = 0.15;
+  double best = before.worst;
+  BallQuality after;
+  const Vec3 x = pattern_search(c.point(v), kFirstStep * to.size, best, [&](const Vec3& y, double limit) {
+    const SurfacePoint at = on_surface(c, v, y);
+    if (at.anchor.facet == kNone || !evaluate(c, v, at.point, limit, after)) return limit;
+    return after.worst;
+  });
+  if (best <= kQualityGain * before.worst) return Verdict::kWorseQuality;
+  const SurfacePoint at = on_surface(c, v, x);
+  to.point = at.point;
+  to.anchor = at.anchor;
+  if (!evaluate(c, v, to.point, before.worst, after)) return Verdict::kWorseQuality;
+  return check_fan(c, v, to);
+}
+
 Verdict relocate_on_surface(OperatorContext& c, VertexId v, NewVertex& to) {
   c.fan.clear();
   for_each_triangle(c.mesh, c.ball, [&](TriangleId t) { c.fan.push_back(t); });
@@ -164,7 +184,8 @@ Verdict relocate_on_surface(OperatorContext& c, VertexId v, NewVertex& to) {
     if (off && share == 1) to.tags &= Tag(~tag::kOffSurface);
     return Verdict::kAccept;
   }
-  return why;
+  if (off || before.worst >= kBadBall) return why;
+  return climb_on_surface(c, v, before, to);
 }
 
 bool move_towards(OperatorContext& c, VertexId v, const Vec3& target, const BallQuality& before,
@@ -179,6 +200,19 @@ bool move_towards(OperatorContext& c, VertexId v, const Vec3& target, const Ball
   return false;
 }
 
+/// Searches for a place where the worst quality of the ball is larger.
+bool climb(OperatorContext& c, VertexId v, const BallQuality& before, NewVertex& to) {
+  // First step in wanted sizes.
+  constexpr double kFirstStep = 0.2;
+  double best = before.worst;
+  BallQuality after;
+  const Vec3 from = c.point(v);
+  to.point = pattern_search(from, kFirstStep * to.size, best, [&](const Vec3& x, double limit) {
+    return evaluate(c, v, x, limit, after) ? after.worst : limit;
+  });
+  return best > kQualityGain * before.worst && evaluate(c, v, to.point, before.worst, after);
+}
+
 }  // namespace
 
 Verdict relocate(OperatorContext& c, VertexId v, NewVertex& to) {
@@ -191,9 +225,9 @@ Verdict relocate(OperatorContext& c, VertexId v, NewVertex& to) {
   if (tags & tag::kSurface) return relocate_on_surface(c, v, to);
   const BallQuality before = now(c);
   if (move_towards(c, v, ideal_place(c, v), before, to)) return Verdict::kAccept;
-  if (before.worst < kBadBall && move_towards(c, v, ideal_for_worst(c, v), before, to))
-    return Verdict::kAccept;
-  return Verdict::kWorseQuality;
+  if (before.worst >= kBadBall) return Verdict::kWorseQuality;
+  if (move_towards(c, v, ideal_for_worst(c, v), before, to)) return Verdict::kAccept;
+  return climb(c, v, before, to) ? Verdict::kAccept : Verdict::kWorseQuality;
 }
 
 }  // namespace cavea

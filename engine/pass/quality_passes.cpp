@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "cavea/operator/edge_collapse.h"
+#include "cavea/operator/edge_star.h"
 #include "cavea/operator/edge_swap.h"
 #include "cavea/operator/face_swap.h"
 #include "cavea/operator/relocate.h"
@@ -65,7 +66,7 @@ class SwapQueue {
       for (int f = 0; f < 4; ++f)
         if (swap_face(t, f)) return;
     asked_[t] = clock_;
-    if (quality < s_.settings.repair_below) collapse_for_quality(t);
+    if (quality < s_.settings.repair_below && !collapse_for_quality(t)) star_for_quality(t);
   }
 
   bool swap_edge(TetId t, int i, int j) {
@@ -94,6 +95,17 @@ class SwapQueue {
         committed();
         return true;
       }
+    return false;
+  }
+
+  bool star_for_quality(TetId t) {
+    for (const auto& e : kEdgeVertices) {
+      gather_shell(m_, t, e[0], e[1], s_.context.shell);
+      const Verdict v = edge_star(s_.context, s_.editor.next_vertex(), s_.cavity);
+      if (!s_.count(Operator::kEdgeStar, v)) continue;
+      committed();
+      return true;
+    }
     return false;
   }
 
