@@ -2,53 +2,108 @@
 // The only door to oneTBB. Everything here gives the same result for any number of threads:
 // loops are over disjoint data, reductions and scans have a shape fixed by the data alone.
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <vector>
 
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
+
 namespace cavea {
+
+/// One fork into tasks and their join, as the thread sanitizer is to see it: what came before the
+/// fork happens before each task, and each task before what comes after the join; the tasks are not
+/// ordered among themselves. oneTBB orders them so, but inside a library that is not built for the
+/// sanitizer. Nothing at all in other builds.
+class ForkJoin {
+ public:
+#ifdef __SANITIZE_THREAD__
+  ForkJoin() { __tsan_release(&fork_); }
+  ~ForkJoin() { __tsan_acquire(&join_); }
+  class Task {
+   public:
+    explicit Task(ForkJoin& of) : of_(of) { __tsan_acquire(&of_.fork_); }
+    ~Task() { __tsan_release(&of_.join_); }
+    Task(const Task&) = delete;
+    Task& operator=(const Task&) = delete;
+
+   private:
+    ForkJoin& of_;
+  };
+
+ private:
+  char fork_ = 0, join_ = 0;
+#else
+  ForkJoin() {}
+  struct Task {
+    explicit Task(ForkJoin&) {}
+  };
+#endif
+ public:
+  ForkJoin(const ForkJoin&) = delete;
+  ForkJoin& operator=(const ForkJoin&) = delete;
+};
 
 /// Number of threads to use when the caller does not say.
 int default_threads();
 
-/// Runs f inside an arena of its own with the given number of threads (at least 1), so that the
-/// caller's scheduler settings are neither used nor changed.
+/// Runs f inside an arena of its own with the given number of threads (at least 1; no more than a
+/// tbb::global_control of the caller allows), so that the caller's scheduler settings are neither
+/// used nor changed.
 template <class F>
 void run_in_arena(int threads, F&& f) {
-  tbb::task_arena arena(std::max(threads, 1));
-  arena.execute([&] { f(); });
+  using Control = tbb::global_control;
+  constexpr auto kMost = Control::max_allowed_parallelism;
+  const auto wanted = static_cast<std::size_t>(std::max(threads, 1));
+  // Without it oneTBB starts no more threads than there are cores, and prints a warning.
+  std::optional<Control> more;
+  if (Control::active_value(kMost) < wanted) more.emplace(kMost, wanted);
+  tbb::task_arena arena(static_cast<int>(std::min(wanted, Control::active_value(kMost))));
+  ForkJoin fork;
+  arena.execute([&] {
+    const ForkJoin::Task task(fork);
+    f();
+  });
 }
 
 /// Calls f(begin, end) on disjoint ranges that cover [0, n).
-template <class F>
-void parallel_ranges(std::size_t n, std::size_t grain, F&& f) {
+template <class F, class Partitioner = tbb::auto_partitioner>
+void parallel_ranges(std::size_t n, std::size_t grain, F&& f, const Partitioner& partitioner = {}) {
   if (n == 0) return;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, std::max<std::size_t>(grain, 1)),
-                    [&](const tbb::blocked_range<std::size_t>& r) { f(r.begin(), r.end()); });
+  ForkJoin fork;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, n, std::max<std::size_t>(grain, 1)),
+      [&](const tbb::blocked_range<std::size_t>& r) {
+        const ForkJoin::Task task(fork);
+        f(r.begin(), r.end());
+      },
+      partitioner);
 }
 
 /// Calls f(i) for each i in [0, n).
-template <class F>
-void parallel_for(std::size_t n, F&& f, std::size_t grain = 1024) {
-  parallel_ranges(n, grain, [&](std::size_t b, std::size_t e) {
-    for (std::size_t i = b; i < e; ++i) f(i);
-  });
+template <class F, class Partitioner = tbb::auto_partitioner>
+void parallel_for(std::size_t n, F&& f, std::size_t grain = 1024,
+                  const Partitioner& partitioner = {}) {
+  parallel_ranges(
+      n, grain,
+      [&](std::size_t b, std::size_t e) {
+        for (std::size_t i = b; i < e; ++i) f(i);
+      },
+      partitioner);
 }
 
 /// Calls f(i) for each i in [0, n), one task each, started in the order of i: for few large tasks.
 template <class F>
 void parallel_tasks(std::size_t n, F&& f) {
-  if (n == 0) return;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, n, 1),
-      [&](const tbb::blocked_range<std::size_t>& r) {
-        for (std::size_t i = r.begin(); i < r.end(); ++i) f(i);
-      },
-      tbb::simple_partitioner{});
+  parallel_for(n, f, 1, tbb::simple_partitioner{});
 }
 
 /// Blocks of this many items are reduced one after the other, whatever the number of threads.
@@ -106,14 +161,20 @@ T exclusive_scan(std::vector<T>& a) {
   return total;
 }
 
-/// Sorts by a strict total order (equal elements must be indistinguishable: the sort is not stable).
+/// Sorts by a strict total order (equal elements must be indistinguishable: the sort is not
+/// stable).
 template <class It, class Less>
 void parallel_sort(It begin, It end, Less less) {
+#ifdef __SANITIZE_THREAD__
+  // The order in which tbb::parallel_sort's tasks touch the elements cannot be told from outside.
+  std::sort(begin, end, less);
+#else
   tbb::parallel_sort(begin, end, less);
+#endif
 }
 template <class It>
 void parallel_sort(It begin, It end) {
-  tbb::parallel_sort(begin, end);
+  parallel_sort(begin, end, std::less<>{});
 }
 
 }  // namespace cavea
