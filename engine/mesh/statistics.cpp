@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "cavea/base/parallel.h"
+#include "cavea/geometry/dihedral.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/mesh/buckets.h"
 
@@ -23,14 +23,6 @@ void add(std::array<std::int64_t, N>& sum, const std::array<std::int64_t, N>& mo
 std::size_t equal_bin(double x, double top, std::size_t bins) {
   if (!(x > 0)) return 0;
   return std::min(bins - 1, std::size_t(x / top * double(bins)));
-}
-
-/// The angle in degrees between the two faces at the edge (a, b) of a tet (a, b, c, d).
-double dihedral(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 ab = b - a, n = cross(ab, c - a), m = cross(ab, d - a);
-  // |n x m| = |ab| |6 volume|; the arc tangent keeps its digits near 0 and 180 degrees.
-  const double sine = norm(ab) * std::abs(dot(n, d - a));
-  return std::atan2(sine, dot(n, m)) * (180 / std::numbers::pi);
 }
 
 struct QualitySum {
