@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "cavea/base/parallel.h"
+#include "cavea/surface/facet_tree.h"
 #include "surface/shapes.h"
 
 namespace cavea {
@@ -141,6 +142,21 @@ TEST(SurfaceDistance, AFinerStepFindsAtLeastAlmostAsMuch) {
   const double rough = measure_surface_distance(coarse, ball.model, 0.3).max();
   EXPECT_NEAR(rough, fine, 0.15 * fine);
   EXPECT_GE(fine, rough * (1 - 1e-3));
+}
+
+TEST(SurfaceDistance, TheCoarsestLatticeHasTheCentroid) {
+  const auto cube = modelled_cube(1);
+  TetMesh dented = build(test::kuhn_cube(6)).mesh;
+  const Corners facet = cube.model.facet_corners(0);
+  const Vec3 centroid = (facet[0] + facet[1] + facet[2]) / 3;
+  const Vec3 inwards = normalized(Vec3{0.5, 0.5, 0.5} - centroid);
+  int moved = 0;
+  for (Vec3& p : dented.points)
+    if (distance(p, centroid) < 1e-9) p += 0.1 * inwards, ++moved;
+  ASSERT_EQ(moved, 1);
+  const SurfaceDistance d = measure_surface_distance(dented, cube.model, 10);
+  EXPECT_GT(d.model_to_out.max, 0.05);
+  EXPECT_LT(distance(d.model_to_out.where, centroid), 1e-9);
 }
 
 std::vector<std::uint64_t> bits(const SurfaceDistance& d) {
