@@ -142,7 +142,7 @@ Verdict check_curve(const OperatorContext& c, const std::vector<TriangleId>& fan
 /// The ball's tets with q in place of p.
 Verdict make_tets(OperatorContext& c, bool quality_gain, Cavity& cavity) {
   const Shell& s = c.shell;
-  double before = 1, after = 1;
+  double before = 1;
   for (TetId t : c.ball.tets) {
     before = std::min(before, double(c.mesh.qualities[t]));
     if (c.mesh.tet_flags[t] & tet_flag::kRequired) return Verdict::kBreaksFeature;
@@ -157,10 +157,9 @@ Verdict make_tets(OperatorContext& c, bool quality_gain, Cavity& cavity) {
       if (k == s.p) k = s.q;
     }
     if (in_shell) continue;
-    if (!c.positive(v[0], v[1], v[2], v[3])) return Verdict::kInverted;
     const double quality = c.quality(v[0], v[1], v[2], v[3]);
-    after = std::min(after, quality);
-    if (after < lowest) return Verdict::kWorseQuality;
+    if (quality < kFlat) return Verdict::kInverted;
+    if (quality < lowest) return Verdict::kWorseQuality;
     cavity.tets.push_back({v, c.mesh.tet_refs[t], float(quality)});
   }
   return cavity.tets.empty() ? Verdict::kBreaksTopology : Verdict::kAccept;

@@ -36,7 +36,7 @@ Verdict may_split(const OperatorContext& c, EdgeOnSurface& edge) {
 }
 
 /// Qualities of the two halves of each tet of the shell with the vertex at x; the worst, or 0 when one
-/// is not certainly positive.
+/// is flat.
 double halves(const OperatorContext& c, const Vec3& x, std::vector<float>& qualities) {
   const Shell& s = c.shell;
   double worst = 1;
@@ -46,8 +46,8 @@ double halves(const OperatorContext& c, const Vec3& x, std::vector<float>& quali
     for (int half = 0; half < 2; ++half) {
       const Vec3& p = half ? x : c.point(s.p);
       const Vec3& q = half ? c.point(s.q) : x;
-      if (!certainly_positive(p, q, r, t)) return 0;
       const double quality = tet_quality(p, q, r, t);
+      if (quality < kFlat) return 0;
       qualities.push_back(float(quality));
       worst = std::min(worst, quality);
     }

@@ -50,11 +50,6 @@ Verdict edge_star(OperatorContext& c, VertexId id, Cavity& cavity) {
   v.point = pattern_search(v.point, kFirstStep * distance(c.point(s.p), c.point(s.q)), best,
                            [&](const Vec3& x, double limit) { return worst_of_star(c, x, limit); });
   if (best <= std::max(kFlat, kStarGain * before)) return Verdict::kWorseQuality;
-  const bool positive =
-      for_each_child(c, v.point, [](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& t) {
-        return certainly_positive(p, q, r, t);
-      });
-  if (!positive) return Verdict::kInverted;
   cavity.inserts_vertex = true;
   cavity.vertex = v;
   cavity.removed_tets = s.tets;

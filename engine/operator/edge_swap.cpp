@@ -43,9 +43,7 @@ class RingTriangulation {
     if (!quality_exceeds(context_.point(q_), x, z, y, limit) ||
         !quality_exceeds(context_.point(p_), x, y, z, limit))
       return 0;
-    const double over = context_.quality(q_, a, c, b), under = context_.quality(p_, a, b, c);
-    if (!context_.positive(q_, a, c, b) || !context_.positive(p_, a, b, c)) return 0;
-    return std::min(over, under);
+    return std::min(context_.quality(q_, a, c, b), context_.quality(p_, a, b, c));
   }
 
   void fill(int i, int j, std::int32_t ref, Cavity& cavity) const {

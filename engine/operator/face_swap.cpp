@@ -17,7 +17,6 @@ Verdict face_swap(OperatorContext& c, TetId t, int f, Cavity& cavity) {
     // The face is counter-clockwise seen from `bottom`, so a to b turns around (top, bottom).
     const double quality = c.quality(top, bottom, a, b);
     if (quality <= threshold) return Verdict::kWorseQuality;
-    if (!c.positive(top, bottom, a, b)) return Verdict::kInverted;
     cavity.tets.push_back({{top, bottom, a, b}, m.tet_refs[t], float(quality)});
   }
   cavity.removed_tets = {t, other.tet()};

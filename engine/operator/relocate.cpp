@@ -29,10 +29,10 @@ bool ideal_apex(const OperatorContext& c, VertexId v, TetId t, Vec3& apex) {
   const auto& k = c.mesh.tets[t];
   const Vec3 x = c.point(k[f[0]]), y = c.point(k[f[1]]), z = c.point(k[f[2]]);
   const Vec3 n = cross(y - x, z - x);  // away from v
-  const double edge = std::sqrt((distance2(x, y) + distance2(y, z) + distance2(z, x)) / 3);
-  const double area2 = norm(n);
-  if (!(area2 > 0)) return false;
-  apex = (x + y + z) / 3 - (kRegularHeight * edge / area2) * n;
+  const double edge2 = (distance2(x, y) + distance2(y, z) + distance2(z, x)) * (1.0 / 3);
+  const double n2 = norm2(n);
+  if (!(n2 > 0)) return false;
+  apex = (1.0 / 3) * (x + y + z) - (kRegularHeight * std::sqrt(edge2 / n2)) * n;
   return true;
 }
 
@@ -71,16 +71,17 @@ BallQuality now(const OperatorContext& c) {
   return b;
 }
 
-/// Qualities of the ball with v at x; false as soon as one falls below `lowest` or is not positive.
+/// Qualities of the ball with v at x; false as soon as one falls below `lowest` or is flat.
 bool evaluate(OperatorContext& c, VertexId v, const Vec3& x, double lowest, BallQuality& b) {
   b = {};
+  lowest = std::max(lowest, kFlat);
   c.qualities.clear();
   for (TetId t : c.ball.tets) {
     const auto& k = c.mesh.tets[t];
     Vec3 p[4];
     for (int i = 0; i < 4; ++i) p[i] = k[i] == v ? x : c.point(k[i]);
     const double q = tet_quality(p[0], p[1], p[2], p[3]);
-    if (q < lowest || !certainly_positive(p[0], p[1], p[2], p[3])) return false;
+    if (q < lowest) return false;
     c.qualities.push_back(float(q));
     b.worst = std::min(b.worst, double(float(q)));
     b.sum += float(q);

@@ -19,6 +19,8 @@ struct CycleSettings {
   std::int64_t most_tets = kMaxTets;
   /// Tets better than this are not asked for swaps.
   double swap_ceiling = 1;
+  /// Only vertices with a tet worse than this are relocated.
+  double move_ceiling = 1;
   /// Tets worse than this are also offered collapses for the sake of quality.
   double repair_below = 0;
   const std::atomic<bool>* cancel = nullptr;

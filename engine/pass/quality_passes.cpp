@@ -126,13 +126,14 @@ std::int64_t move_pass(PartState& s) {
   std::vector<char> asked(m.points.size(), 0);
   for (std::size_t t = 0; t < m.tets.size(); ++t) {
     if (!m.tet_alive(TetId(t)) || !(m.tet_flags[t] & tet_flag::kAskMove)) continue;
+    if (m.qualities[t] > s.settings.move_ceiling) continue;
     m.tet_flags[t] &= std::uint8_t(~tet_flag::kAskMove);
     for (VertexId v : m.tets[t]) asked[v] = 1;
   }
   std::int64_t done = 0;
   NewVertex to;
   for (std::size_t v = 0; v < asked.size(); ++v) {
-    if (!asked[v] || !m.vertex_alive(VertexId(v))) continue;
+    if (!asked[v] || !m.vertex_alive(VertexId(v)) || (m.vertex_tags[v] & tag::kFrozen)) continue;
     if (!s.count(Operator::kRelocate, relocate(s.context, VertexId(v), to))) continue;
     s.editor.move(VertexId(v), to, s.context.ball.tets, s.context.qualities);
     ++s.result.changes;
