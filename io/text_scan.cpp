@@ -108,7 +108,8 @@ std::size_t count_tokens(std::string_view text) {
     const std::size_t n = std::min(kBlock, text.size() - i);
     unsigned char begins = 0;
     for (std::size_t k = 0; k < n; ++k)
-      begins = static_cast<unsigned char>(begins + (is_space(p[k - 1]) & !is_space(p[k])));
+      begins =
+          static_cast<unsigned char>(begins + (int{is_space(p[k - 1])} & int{!is_space(p[k])}));
     total += begins;
   }
   return total;
