@@ -64,6 +64,9 @@ inline constexpr Tag kOnRequiredEdge = 128;
 inline constexpr Tag kOffSurface = 256;
 /// Vertex that was on the interface between parts in the last round; the next cut avoids it.
 inline constexpr Tag kWasInterface = 512;
+/// Edge or vertex in which the volume touches itself: not all of its tets are reached from one of
+/// them through faces, so local operations see a part of them only and leave it as it is.
+inline constexpr Tag kPinched = 1024;
 /// What makes a surface edge one that patches end at.
 inline constexpr Tag kFeature = kRidge | kReferenceEdge | kNonManifold | kRequired;
 }  // namespace tag
@@ -159,6 +162,8 @@ inline constexpr std::uint8_t kAskSwap = 2;
 inline constexpr std::uint8_t kAskMove = 4;    ///< same, for the relocation of its vertices
 inline constexpr std::uint8_t kAskLength = 8;  ///< same, for split and collapse of its edges
 inline constexpr std::uint8_t kAskAll = kAskSwap | kAskMove | kAskLength;
+/// Something was refused because the interface of the part is near: ask all again when it has moved.
+inline constexpr std::uint8_t kAskLater = 16;
 }  // namespace tet_flag
 
 }  // namespace cavea

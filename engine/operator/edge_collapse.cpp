@@ -22,6 +22,7 @@ Verdict may_merge(const OperatorContext& c) {
   const Tag p = c.tags(s.p);
   if (p & tag::kFrozen) return Verdict::kFrozen;
   if (p & (tag::kCorner | tag::kRequired)) return Verdict::kBreaksFeature;
+  if (p & tag::kPinched) return Verdict::kBreaksTopology;
   if (!(p & tag::kSurface)) return Verdict::kAccept;
   if (!s.on_surface()) return Verdict::kBreaksTopology;
   for (const auto& at : s.triangles) {
@@ -54,6 +55,8 @@ bool next_to(const TetMesh& m, const Ball& ball, VertexId v) {
 /// see such pinches.
 Verdict check_link(OperatorContext& c, const std::vector<TriangleId>& fan) {
   const Shell& s = c.shell;
+  // Not all of q's tets would be in its ball.
+  if (c.tags(s.q) & tag::kPinched) return Verdict::kBreaksTopology;
   Ball& ball_q = c.second_ball;
   gather_ball(c.mesh, s.q, c.marker, ball_q);
   const bool q_frozen = c.tags(s.q) & tag::kFrozen;

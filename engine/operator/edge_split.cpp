@@ -32,6 +32,7 @@ Verdict may_split(const OperatorContext& c, EdgeOnSurface& edge) {
   for (const auto& at : s.triangles)
     if (c.mesh.triangles[at.triangle].tags & tag::kRequired) return Verdict::kBreaksFeature;
   edge = edge_of(c.mesh, s);
+  if (edge.tags & tag::kPinched) return Verdict::kBreaksTopology;
   return edge.tags & tag::kRequired ? Verdict::kBreaksFeature : Verdict::kAccept;
 }
 

@@ -86,9 +86,12 @@ Verdict swap_triangles(OperatorContext& c, Cavity& cavity) {
   auto index = [](const Triangle& t, VertexId v) { return t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2; };
   if (ta.edge_tag[index(ta, a)] & tag::kFeature) return Verdict::kBreaksFeature;
   // An edge ab that exists already would be on the surface twice.
-  gather_ball(c.mesh, a, c.marker, c.second_ball);
+  const bool pinched = c.tags(a) & tag::kPinched;  // then not all of its tets are in its ball
+  const VertexId center = pinched ? b : a, other = pinched ? a : b;
+  if (c.tags(center) & tag::kPinched) return Verdict::kBreaksTopology;
+  gather_ball(c.mesh, center, c.marker, c.second_ball);
   for (TetId t : c.second_ball.tets)
-    if (c.mesh.local_index(t, b) < 4) return Verdict::kBreaksTopology;
+    if (c.mesh.local_index(t, other) < 4) return Verdict::kBreaksTopology;
 
   for (const VertexId kept : {s.p, s.q}) {
     const VertexId gone = kept == s.p ? s.q : s.p;

@@ -19,47 +19,38 @@ struct BallQuality {
   double worst = 1, sum = 0;
 };
 
-/// Height of a regular tet over its face, in edges.
-constexpr double kRegularHeight = 0.816496580927726;
-
-/// Where the vertex would make a tet of its ball as regular as the face opposite allows; false for a
-/// face without area.
-bool ideal_apex(const OperatorContext& c, VertexId v, TetId t, Vec3& apex) {
-  const int* f = kFaceVertices[c.mesh.local_index(t, v)];
-  const auto& k = c.mesh.tets[t];
-  const Vec3 x = c.point(k[f[0]]), y = c.point(k[f[1]]), z = c.point(k[f[2]]);
-  const Vec3 n = cross(y - x, z - x);  // away from v
-  const double edge2 = (distance2(x, y) + distance2(y, z) + distance2(z, x)) * (1.0 / 3);
-  const double n2 = norm2(n);
-  if (!(n2 > 0)) return false;
-  apex = (1.0 / 3) * (x + y + z) - (kRegularHeight * std::sqrt(edge2 / n2)) * n;
-  return true;
-}
-
-/// The same for the worst tet of the ball alone.
-Vec3 ideal_for_worst(const OperatorContext& c, VertexId v) {
-  TetId worst = c.ball.tets[0];
-  for (TetId t : c.ball.tets)
-    if (c.mesh.qualities[t] < c.mesh.qualities[worst]) worst = t;
-  Vec3 apex;
-  return ideal_apex(c, v, worst, apex) ? apex : c.point(v);
+/// The faces of the ball opposite v, ready for qualities.
+void prepare_star(OperatorContext& c, VertexId v) {
+  c.star.clear();
+  for (TetId t : c.ball.tets) {
+    const auto& k = c.mesh.tets[t];
+    const int* f = kFaceVertices[c.mesh.local_index(t, v)];
+    c.star.add(c.point(k[f[0]]), c.point(k[f[1]]), c.point(k[f[2]]));
+  }
+  c.star.prepare();
 }
 
 /// Mean, weighted towards bad tets, of the places of the vertex that would make each tet of its ball
 /// as regular as its face opposite allows.
-Vec3 ideal_place(const OperatorContext& c, VertexId v) {
-  constexpr double kWorstCounted = 0.05;  // bounds the weight of a bad tet
+Vec3 ideal_place(const OperatorContext& c) {
+  constexpr float kWorstCounted = 0.05f;  // bounds the weight of a bad tet
   Vec3 sum{};
   double weights = 0;
-  for (TetId t : c.ball.tets) {
-    Vec3 apex;
-    if (!ideal_apex(c, v, t, apex)) continue;
-    const double q = std::max(kWorstCounted, double(c.mesh.qualities[t]));
+  for (std::size_t i = 0; i < c.ball.tets.size(); ++i) {
+    const double q = std::max(kWorstCounted, c.mesh.qualities[c.ball.tets[i]]);
     const double w = 1 / (q * q);
-    sum += w * apex;
+    sum += w * c.star.ideal_apex(i);
     weights += w;
   }
-  return weights > 0 ? sum / weights : c.point(v);
+  return sum / weights;
+}
+
+/// The same for the worst tet of the ball alone.
+Vec3 ideal_for_worst(const OperatorContext& c) {
+  std::size_t worst = 0;
+  for (std::size_t i = 1; i < c.ball.tets.size(); ++i)
+    if (c.mesh.qualities[c.ball.tets[i]] < c.mesh.qualities[c.ball.tets[worst]]) worst = i;
+  return c.star.ideal_apex(worst);
 }
 
 BallQuality now(const OperatorContext& c) {
@@ -71,22 +62,21 @@ BallQuality now(const OperatorContext& c) {
   return b;
 }
 
-/// Qualities of the ball with v at x; false as soon as one falls below `lowest` or is flat.
-bool evaluate(OperatorContext& c, VertexId v, const Vec3& x, double lowest, BallQuality& b) {
+/// Qualities of the ball with its vertex at x; false if one is below `lowest` or flat.
+bool evaluate(OperatorContext& c, const Vec3& x, double lowest, BallQuality& b) {
   b = {};
-  lowest = std::max(lowest, kFlat);
-  c.qualities.clear();
-  for (TetId t : c.ball.tets) {
-    const auto& k = c.mesh.tets[t];
-    Vec3 p[4];
-    for (int i = 0; i < 4; ++i) p[i] = k[i] == v ? x : c.point(k[i]);
-    const double q = tet_quality(p[0], p[1], p[2], p[3]);
-    if (q < lowest) return false;
-    c.qualities.push_back(float(q));
-    b.worst = std::min(b.worst, double(float(q)));
-    b.sum += float(q);
+  c.star.evaluate(x);
+  const double* q = c.star.qualities();
+  for (std::size_t i = 0; i < c.star.size(); ++i) {
+    b.worst = std::min(b.worst, q[i]);
+    b.sum += q[i];
   }
-  return true;
+  return b.worst >= std::max(lowest, kFlat);
+}
+
+/// The qualities of the last evaluation as the mesh keeps them.
+void keep_qualities(OperatorContext& c) {
+  c.qualities.assign(c.star.qualities(), c.star.qualities() + c.star.size());
 }
 
 bool better(const BallQuality& a, const BallQuality& b, std::size_t tets) {
@@ -138,7 +128,7 @@ Vec3 surface_target(const OperatorContext& c, VertexId v) {
   for (TriangleId id : c.fan)
     for (VertexId k : c.mesh.triangles[id].v)
       if (k != v) sum += c.point(k);
-  return (sum / (2.0 * double(c.fan.size())) + ideal_place(c, v)) / 2;
+  return (sum / (2.0 * double(c.fan.size())) + ideal_place(c)) / 2;
 }
 
 /// The same as climb() for a surface vertex: every place tried is on the surface.
@@ -148,14 +138,14 @@ Verdict climb_on_surface(OperatorContext& c, VertexId v, const BallQuality& befo
   BallQuality after;
   const Vec3 x = pattern_search(c.point(v), kFirstStep * to.size, best, [&](const Vec3& y, double limit) {
     const SurfacePoint at = on_surface(c, v, y);
-    if (at.anchor.facet == kNone || !evaluate(c, v, at.point, limit, after)) return limit;
+    if (at.anchor.facet == kNone || !evaluate(c, at.point, limit, after)) return limit;
     return after.worst;
   });
   if (best <= kQualityGain * before.worst) return Verdict::kWorseQuality;
   const SurfacePoint at = on_surface(c, v, x);
   to.point = at.point;
   to.anchor = at.anchor;
-  if (!evaluate(c, v, to.point, before.worst, after)) return Verdict::kWorseQuality;
+  if (!evaluate(c, to.point, before.worst, after)) return Verdict::kWorseQuality;
   return check_fan(c, v, to);
 }
 
@@ -179,7 +169,7 @@ Verdict relocate_on_surface(OperatorContext& c, VertexId v, NewVertex& to) {
     BallQuality after;
     // A vertex that is not on the surface yet goes there if the tets allow; others must gain.
     const double lowest = off ? std::max(kFlat, c.lowest_allowed(before.worst)) : before.worst;
-    if (!evaluate(c, v, to.point, lowest, after)) continue;
+    if (!evaluate(c, to.point, lowest, after)) continue;
     if (!off && !better(after, before, c.ball.tets.size())) continue;
     if (why = check_fan(c, v, to); why != Verdict::kAccept) continue;
     if (off && share == 1) to.tags &= Tag(~tag::kOffSurface);
@@ -195,7 +185,7 @@ bool move_towards(OperatorContext& c, VertexId v, const Vec3& target, const Ball
   for (const double share : kShares) {
     to.point = from + share * (target - from);
     BallQuality after;
-    if (evaluate(c, v, to.point, before.worst, after) && better(after, before, c.ball.tets.size()))
+    if (evaluate(c, to.point, before.worst, after) && better(after, before, c.ball.tets.size()))
       return true;
   }
   return false;
@@ -209,9 +199,17 @@ bool climb(OperatorContext& c, VertexId v, const BallQuality& before, NewVertex&
   BallQuality after;
   const Vec3 from = c.point(v);
   to.point = pattern_search(from, kFirstStep * to.size, best, [&](const Vec3& x, double limit) {
-    return evaluate(c, v, x, limit, after) ? after.worst : limit;
+    return evaluate(c, x, limit, after) ? after.worst : limit;
   });
-  return best > kQualityGain * before.worst && evaluate(c, v, to.point, before.worst, after);
+  return best > kQualityGain * before.worst && evaluate(c, to.point, before.worst, after);
+}
+
+Verdict relocate_inside(OperatorContext& c, VertexId v, NewVertex& to) {
+  const BallQuality before = now(c);
+  if (move_towards(c, v, ideal_place(c), before, to)) return Verdict::kAccept;
+  if (before.worst >= kBadBall) return Verdict::kWorseQuality;
+  if (move_towards(c, v, ideal_for_worst(c), before, to)) return Verdict::kAccept;
+  return climb(c, v, before, to) ? Verdict::kAccept : Verdict::kWorseQuality;
 }
 
 }  // namespace
@@ -222,13 +220,12 @@ Verdict relocate(OperatorContext& c, VertexId v, NewVertex& to) {
   if (tags & (tag::kCorner | tag::kRequired)) return Verdict::kBreaksFeature;
   gather_ball(c.mesh, v, c.marker, c.ball);
   if (c.ball.cut) return Verdict::kFrozen;
+  prepare_star(c, v);
   to = {c.point(v), c.mesh.sizes[v], tags, c.mesh.vertex_refs[v], c.mesh.anchors[v]};
-  if (tags & tag::kSurface) return relocate_on_surface(c, v, to);
-  const BallQuality before = now(c);
-  if (move_towards(c, v, ideal_place(c, v), before, to)) return Verdict::kAccept;
-  if (before.worst >= kBadBall) return Verdict::kWorseQuality;
-  if (move_towards(c, v, ideal_for_worst(c, v), before, to)) return Verdict::kAccept;
-  return climb(c, v, before, to) ? Verdict::kAccept : Verdict::kWorseQuality;
+  const Verdict verdict =
+      tags & tag::kSurface ? relocate_on_surface(c, v, to) : relocate_inside(c, v, to);
+  if (verdict == Verdict::kAccept) keep_qualities(c);
+  return verdict;
 }
 
 }  // namespace cavea

@@ -34,11 +34,13 @@ constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
 struct FeatureStar {
   std::array<VertexId, 2> ends{kNone, kNone};
   std::array<Tag, 2> kinds{};
+  Tag all_kinds = 0;
   int degree = 0;
   int fans = 0;  ///< sheets of triangles around the vertex, joined through edges
 
   void add(VertexId end, Tag kind) {
     if (degree < 2) ends[degree] = end, kinds[degree] = kind;
+    all_kinds |= kind;
     ++degree;
   }
 };
@@ -50,7 +52,12 @@ Vec3 triangle_normal(const TetMesh& m, const Triangle& t) {
 Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end, double cos_ridge,
               bool detect) {
   Tag tags = 0;
-  for (const EdgeSide* s = begin; s != end; ++s) tags |= m.triangles[s->triangle].edge_tag[s->k];
+  int outside = 0;
+  for (const EdgeSide* s = begin; s != end; ++s) {
+    tags |= m.triangles[s->triangle].edge_tag[s->k];
+    outside += m.triangles[s->triangle].sides[1].is_unset();
+  }
+  if (outside > 2) tags |= tag::kPinched;
   if (end - begin != 2) return Tag(tags | tag::kNonManifold);
   const Triangle& t0 = m.triangles[begin[0].triangle];
   const Triangle& t1 = m.triangles[begin[1].triangle];
@@ -86,7 +93,8 @@ std::vector<FeatureStar> gather_stars(const TetMesh& m, const std::vector<EdgeSi
     return 3 * s.triangle + (t[0] == v ? 0 : t[1] == v ? 1 : 2);
   };
   for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
-    const Tag kind = m.triangles[begin->triangle].edge_tag[begin->k] & tag::kFeature;
+    const Tag kind =
+        m.triangles[begin->triangle].edge_tag[begin->k] & Tag(tag::kFeature | tag::kPinched);
     if (kind) {
       stars[begin->a].add(begin->b, kind);
       stars[begin->b].add(begin->a, kind);
@@ -116,9 +124,8 @@ void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars, double angl
   for (std::size_t v = 0; v < stars.size(); ++v) {
     const FeatureStar& star = stars[v];
     if (star.fans == 0) continue;
-    m.vertex_tags[v] |= tag::kSurface;
-    for (int k = 0; k < std::min(star.degree, 2); ++k)
-      m.vertex_tags[v] |= Tag(star.kinds[k] & kOnCurve);
+    m.vertex_tags[v] |= Tag(tag::kSurface | (star.all_kinds & (kOnCurve | tag::kPinched)));
+    if (star.fans > 1) m.vertex_tags[v] |= tag::kPinched;
     if (is_corner(m, VertexId(v), star, cos_turn)) m.vertex_tags[v] |= tag::kCorner;
   }
 }
