@@ -1,0 +1,75 @@
+#include "cavea/base/error.h"
+#include "operator/stage.h"
+
+namespace cavea::test {
+namespace {
+
+/// A stage whose cavity is the split of an edge inside the volume.
+void split_inside(Stage& stage) {
+  for (const Edge& e : edges_of(stage.mesh))
+    if (stage.find_edge(e[0], e[1]) && stage.context.shell.closed &&
+        stage.split() == Verdict::kAccept)
+      return;
+  FAIL() << "no edge could be split";
+}
+
+TEST(MeshEditor, RefusesACavityThatDoesNotClose) {
+  {
+    SCOPED_TRACE("a new tet is missing");
+    Stage stage(kuhn_cube(2));
+    split_inside(stage);
+    stage.cavity.tets.pop_back();
+    EXPECT_THROW(stage.editor.commit(stage.cavity), InternalError);
+  }
+  {
+    SCOPED_TRACE("a tet is not removed");
+    Stage stage(kuhn_cube(2));
+    split_inside(stage);
+    stage.cavity.removed_tets.pop_back();
+    EXPECT_THROW(stage.editor.commit(stage.cavity), InternalError);
+  }
+  {
+    SCOPED_TRACE("a new tet has a wrong vertex");
+    Stage stage(kuhn_cube(2));
+    split_inside(stage);
+    auto& v = stage.cavity.tets[0].v;
+    for (VertexId other = 0; other < VertexId(stage.mesh.points.size()); ++other)
+      if (std::find(v.begin(), v.end(), other) == v.end()) {
+        v[2] = other;
+        break;
+      }
+    EXPECT_THROW(stage.editor.commit(stage.cavity), InternalError);
+  }
+}
+
+TEST(MeshEditor, FillsTheHolesThatItHasMade) {
+  Stage stage(kuhn_cube(3));
+  std::int64_t collapsed = 0;
+  for (const Edge& e : edges_of(stage.mesh))
+    if (stage.find_edge(e[0], e[1]) && stage.collapse() == Verdict::kAccept) {
+      stage.editor.commit(stage.cavity);
+      ++collapsed;
+    }
+  ASSERT_GT(collapsed, 0);
+  const std::size_t points = stage.mesh.points.size();
+  EXPECT_FALSE(stage.mesh.vertex_alive(stage.editor.next_vertex()));
+  for (std::int64_t i = 0; i < collapsed; ++i) {
+    split_inside(stage);
+    stage.editor.commit(stage.cavity);
+  }
+  EXPECT_EQ(stage.mesh.points.size(), points);
+  expect_sound(stage.mesh);
+}
+
+TEST(MeshEditor, AnotherOneOfTheSameMeshKnowsItsHoles) {
+  Stage stage(kuhn_cube(3));
+  for (const Edge& e : edges_of(stage.mesh))
+    if (stage.find_edge(e[0], e[1]) && stage.collapse() == Verdict::kAccept)
+      stage.editor.commit(stage.cavity);
+  const MeshEditor another(stage.mesh);
+  EXPECT_EQ(another.living_tets(), stage.editor.living_tets());
+  EXPECT_FALSE(stage.mesh.vertex_alive(another.next_vertex()));
+}
+
+}  // namespace
+}  // namespace cavea::test

@@ -1,0 +1,146 @@
+// Each operator on all the edges, faces or vertices of small meshes, in a random order.
+#include <functional>
+
+#include "operator/stage.h"
+
+namespace cavea::test {
+namespace {
+
+/// The two ends of an edge, a tet and its face, or a vertex and nothing.
+using Item = std::array<std::int32_t, 2>;
+
+struct Action {
+  Operator op;
+  std::vector<Item> (*items)(const TetMesh&);
+  bool (*attempt)(Stage&, const Item&);  ///< does it, if the operator accepts
+};
+
+bool commit_if(Stage& stage, Verdict verdict) {
+  if (verdict != Verdict::kAccept) return false;
+  stage.editor.commit(stage.cavity);
+  return true;
+}
+
+std::vector<Item> faces_of(const TetMesh& mesh) {
+  std::vector<Item> faces;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (int f = 0; f < 4; ++f) faces.push_back({TetId(t), f});
+  return faces;
+}
+
+std::vector<Item> vertices_of(const TetMesh& mesh) {
+  std::vector<Item> vertices;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) vertices.push_back({VertexId(v), 0});
+  return vertices;
+}
+
+bool relocate_and_move(Stage& stage, const Item& item) {
+  NewVertex to;
+  if (!stage.mesh.vertex_alive(item[0]) || relocate(stage.context, item[0], to) != Verdict::kAccept)
+    return false;
+  stage.editor.move(item[0], to, stage.context.ball.tets, stage.context.qualities);
+  return true;
+}
+
+const Action kActions[] = {
+    {Operator::kEdgeSplit, edges_of,
+     [](Stage& s, const Item& e) { return s.find_edge(e[0], e[1]) && commit_if(s, s.split()); }},
+    {Operator::kEdgeCollapse, edges_of,
+     [](Stage& s, const Item& e) { return s.find_edge(e[0], e[1]) && commit_if(s, s.collapse()); }},
+    {Operator::kEdgeSwap, edges_of,
+     [](Stage& s, const Item& e) {
+       return s.find_edge(e[0], e[1]) && commit_if(s, s.swap_edge());
+     }},
+    {Operator::kFaceSwap, faces_of,
+     [](Stage& s, const Item& f) {
+       return s.mesh.tet_alive(f[0]) && commit_if(s, face_swap(s.context, f[0], f[1], s.cavity));
+     }},
+    {Operator::kRelocate, vertices_of, relocate_and_move},
+    {Operator::kEdgeStar, edges_of,
+     [](Stage& s, const Item& e) {
+       return s.find_edge(e[0], e[1]) &&
+              commit_if(s, edge_star(s.context, s.editor.next_vertex(), s.cavity));
+     }},
+};
+
+const Action& action(Operator op) { return kActions[std::size_t(op)]; }
+
+/// Attempts all items; `accepted` is called after each that was done.
+std::int64_t sweep(Stage& stage, Operator op, std::uint64_t seed,
+                   const std::function<void()>& accepted) {
+  std::vector<Item> items = action(op).items(stage.mesh);
+  shuffle(items, seed);
+  std::int64_t done = 0;
+  for (const Item& item : items)
+    if (action(op).attempt(stage, item)) {
+      ++done;
+      accepted();
+      if (testing::Test::HasFailure()) break;
+    }
+  return done;
+}
+
+/// Makes a mesh worse, so that there is something to improve.
+void spoil(Stage& stage, std::uint64_t seed) {
+  std::vector<Item> edges = edges_of(stage.mesh);
+  shuffle(edges, seed);
+  edges.resize(edges.size() / 3);
+  for (const Item& e : edges) action(Operator::kEdgeSplit).attempt(stage, e);
+  stage.context.limits.quality_ratio = 0.1;
+  sweep(stage, Operator::kEdgeCollapse, seed + 1, [] {});
+}
+
+class Operators : public testing::TestWithParam<std::tuple<std::size_t, int>> {};
+
+TEST_P(Operators, KeepTheMeshSoundAndTheDomainAsItIs) {
+  constexpr std::uint64_t kSeed = 17;
+  const Subject subject = subjects()[std::get<0>(GetParam())];
+  const auto op = Operator(std::get<1>(GetParam()));
+  SCOPED_TRACE(testing::Message() << name(op) << " on " << subject.name << ", seed " << kSeed);
+  Stage stage(subject.data);
+  const Shape shape(stage.mesh);
+  if (op != Operator::kEdgeSplit && op != Operator::kEdgeCollapse) spoil(stage, kSeed);
+  const std::int64_t stride = kSanitized ? 50 : 5;
+  std::int64_t commits = 0;
+  const std::int64_t done = sweep(stage, op, kSeed, [&] {
+    if (commits++ % stride == 0) expect_sound(stage.mesh);
+  });
+  EXPECT_GT(done, 0);
+  expect_sound(stage.mesh);
+  EXPECT_EQ(count(stage.mesh).tets, stage.editor.living_tets());
+  if (subject.polyhedral)
+    shape.expect_polyhedron(stage.mesh);
+  else
+    shape.expect_topology_of(stage.mesh);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Operators,
+                         testing::Combine(testing::Range<std::size_t>(0, subjects().size()),
+                                          testing::Range(0, kOperators)),
+                         [](const auto& pair) {
+                           return subjects()[std::get<0>(pair.param)].name + "_" +
+                                  name(Operator(std::get<1>(pair.param)));
+                         });
+
+TEST(Operators, OfQualityRaiseTheWorstOfTheirCavity) {
+  constexpr std::uint64_t kSeed = 23;
+  Stage stage(kuhn_cube(4));
+  spoil(stage, kSeed);
+  std::vector<Item> edges = edges_of(stage.mesh);
+  shuffle(edges, kSeed);
+  int accepted = 0;
+  for (const Item& e : edges) {
+    if (!stage.find_edge(e[0], e[1]) || stage.swap_edge() != Verdict::kAccept) continue;
+    double before = 1, after = 1;
+    for (const TetId t : stage.cavity.removed_tets)
+      before = std::min(before, double(stage.mesh.qualities[t]));
+    for (const NewTet& t : stage.cavity.tets) after = std::min(after, double(t.quality));
+    EXPECT_GT(after, 1.01 * before) << "seed " << kSeed;
+    ++accepted;
+    stage.editor.commit(stage.cavity);
+  }
+  EXPECT_GT(accepted, 10);
+}
+
+}  // namespace
+}  // namespace cavea::test
