@@ -5,6 +5,7 @@
 #include "cavea/cavity/cavity.h"
 #include "cavea/cavity/verdict.h"
 #include "cavea/geometry/metric.h"
+#include "cavea/geometry/star.h"
 #include "cavea/mesh/local.h"
 #include "cavea/surface/surface_model.h"
 
@@ -37,6 +38,7 @@ struct OperatorContext {
   Shell shell;
   std::vector<TriangleId> fan;
   std::vector<float> qualities;
+  Star star;  ///< of the ball, while its vertex is relocated
 
   Vec3 point(VertexId v) const { return mesh.points[v]; }
   Tag tags(VertexId v) const { return mesh.vertex_tags[v]; }

@@ -152,7 +152,9 @@ class Stitch {
       }
       out_.qualities[to] = m.qualities[t];
       out_.tet_refs[to] = m.tet_refs[t];
-      out_.tet_flags[to] = m.tet_flags[t];
+      std::uint8_t flags = m.tet_flags[t];
+      if (flags & tet_flag::kAskLater) flags = std::uint8_t((flags | tet_flag::kAskAll) & ~tet_flag::kAskLater);
+      out_.tet_flags[to] = flags;
     }
   }
 

@@ -116,13 +116,14 @@ std::int64_t for_each_task(PartState& s, const std::vector<EdgeTask>& tasks, F&&
 
 std::int64_t split_pass(PartState& s) {
   const std::vector<EdgeTask> tasks = split_tasks(s);
-  return for_each_task(s, tasks, [&](const EdgeTask&) {
+  return for_each_task(s, tasks, [&](const EdgeTask& task) {
     if (s.editor.living_tets() >= s.settings.most_tets) {
       s.result.full = true;
       return false;
     }
-    if (!s.count(Operator::kEdgeSplit, edge_split(s.context, s.editor.next_vertex(), s.cavity)))
-      return false;
+    const Verdict v = edge_split(s.context, s.editor.next_vertex(), s.cavity);
+    if (v == Verdict::kFrozen) s.mesh().tet_flags[task.tet] |= tet_flag::kAskLater;
+    if (!s.count(Operator::kEdgeSplit, v)) return false;
     s.commit();
     return true;
   });
@@ -134,7 +135,9 @@ std::int64_t collapse_pass(PartState& s) {
   return for_each_task(s, tasks, [&](const EdgeTask& task) {
     for (int way = 0; way < 2; ++way) {
       if (way == 1) find_edge(s, task, task.b, task.a);
-      if (s.count(Operator::kEdgeCollapse, edge_collapse(s.context, false, s.cavity))) {
+      const Verdict v = edge_collapse(s.context, false, s.cavity);
+      if (v == Verdict::kFrozen) s.mesh().tet_flags[task.tet] |= tet_flag::kAskLater;
+      if (s.count(Operator::kEdgeCollapse, v)) {
         s.commit();
         return true;
       }

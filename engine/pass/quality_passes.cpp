@@ -30,8 +30,10 @@ class SwapQueue {
     for (std::size_t i = 0; i < queue_.size(); ++i) {
       const TetId t = queue_[i];
       if (!m_.tet_alive(t) || !(m_.tet_flags[t] & tet_flag::kAskSwap)) continue;
+      // Better tets keep their flag for a phase that asks them too.
+      if (m_.qualities[t] >= s_.settings.swap_ceiling) continue;
       m_.tet_flags[t] &= std::uint8_t(~tet_flag::kAskSwap);
-      if (m_.qualities[t] < s_.settings.swap_ceiling) ask(t);
+      ask(t);
     }
     return done_;
   }
@@ -70,7 +72,10 @@ class SwapQueue {
   }
 
   bool swap_edge(TetId t, int i, int j) {
-    if (s_.context.frozen_edge(m_.tets[t][i], m_.tets[t][j])) return false;
+    if (s_.context.frozen_edge(m_.tets[t][i], m_.tets[t][j])) {
+      m_.tet_flags[t] |= tet_flag::kAskLater;
+      return false;
+    }
     gather_shell(m_, t, i, j, s_.context.shell);
     if (asked_before(s_.context.shell.tets)) return false;
     if (!s_.count(Operator::kEdgeSwap, edge_swap(s_.context, s_.cavity))) return false;
@@ -128,7 +133,10 @@ std::int64_t move_pass(PartState& s) {
     if (!m.tet_alive(TetId(t)) || !(m.tet_flags[t] & tet_flag::kAskMove)) continue;
     if (m.qualities[t] > s.settings.move_ceiling) continue;
     m.tet_flags[t] &= std::uint8_t(~tet_flag::kAskMove);
-    for (VertexId v : m.tets[t]) asked[v] = 1;
+    for (VertexId v : m.tets[t]) {
+      asked[v] = 1;
+      if (m.vertex_tags[v] & tag::kFrozen) m.tet_flags[t] |= tet_flag::kAskLater;
+    }
   }
   std::int64_t done = 0;
   NewVertex to;

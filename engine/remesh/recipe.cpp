@@ -32,11 +32,12 @@ Phase rough(const ResolvedOptions& o) {
 
 Phase fine(const ResolvedOptions& o) {
   Phase p{"fine", base(o), 3, 0.02, 8};
+  p.ask = tet_flag::kAskLength;
   p.cycle.limits.shortest_made = 0.6;
   p.cycle.limits.quality_ratio = 0.7;
   p.cycle.limits.quality_floor = 0.3;
   p.cycle.sweeps = 5;
-  p.cycle.swap_ceiling = 0.8;
+  p.cycle.swap_ceiling = 0.75;
   p.cycle.repair_below = 0.2;
   return p;
 }

@@ -15,6 +15,8 @@ struct Phase {
   double settled = 0.01;
   /// A part may grow this many times before the mesh is partitioned anew; 0: without bound.
   double growth = 0;
+  /// Asked of all tets again at the start, because this phase's limits differ from those before.
+  std::uint8_t ask = 0;
   bool resize = true;  ///< sets the wanted sizes anew before each round
 };
 

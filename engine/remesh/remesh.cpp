@@ -86,7 +86,7 @@ class Run {
   void run_phase(const Phase& phase) {
     CycleSettings settings = phase.cycle;
     settings.cancel = options_.cancel;
-    for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
+    for (std::uint8_t& flags : mesh_.tet_flags) flags |= phase.ask;
     for (int round = 1; round <= phase.rounds; ++round) {
       tell(phase.name, round);
       if (phase.resize && round > 1) resize();
