@@ -10,7 +10,7 @@ namespace {
 /// Shares of the way to the target that are tried in turn.
 constexpr double kShares[] = {1, 0.5, 0.2};
 /// Balls with a worse tet than this are also tried for its sake alone.
-constexpr double kBadBall = 0.4;
+constexpr double kBadBall = 0.5;
 /// The mean quality of a ball must rise by this much where the worst does not.
 constexpr double kMeanGain = 0.002;
 constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;

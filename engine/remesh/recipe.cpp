@@ -19,7 +19,7 @@ CycleSettings base(const ResolvedOptions& o) {
 
 /// Lengths outside the paper's rough bounds only (section 4.3, step 4), with loss of quality allowed.
 Phase rough(const ResolvedOptions& o) {
-  Phase p{"rough", base(o), 3, 0.05, 8};
+  Phase p{"rough", base(o), 2, 0.05, 8};
   p.cycle.limits.long_edge = 2.0;
   p.cycle.limits.short_edge = 0.4;
   p.cycle.limits.quality_ratio = 0.3;
@@ -48,7 +48,7 @@ Phase polish(const ResolvedOptions& o) {
   p.cycle.limits.quality_ratio = 0.9;
   p.cycle.limits.quality_floor = 0.4;
   p.cycle.sweeps = 4;
-  p.cycle.repair_below = 0.35;
+  p.cycle.repair_below = 0.45;
   p.resize = false;
   return p;
 }

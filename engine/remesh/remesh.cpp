@@ -26,7 +26,7 @@ namespace {
 constexpr double kMaxBulge = 3;
 
 /// Places that are still too far from the surface after this many repairs are left and reported.
-constexpr int kRepairs = 3;
+constexpr int kRepairs = 5;
 
 /// One run of remesh(): the mesh it works on and what it reports.
 class Run {
@@ -113,8 +113,11 @@ class Run {
       surface_->shrink_sizes(f.where, anchor, surface_->size(anchor), factor(f.distance));
     };
     for (const FarSample& f : distance_.far_facets) shrink(f, {f.id, 1.0f / 3, 1.0f / 3});
-    for (const FarSample& f : distance_.far_triangles)
-      shrink(f, mesh_.anchors[std::size_t(mesh_.triangles[std::size_t(f.id)].v[0])]);
+    for (const FarSample& f : distance_.far_triangles) {
+      const Triangle& t = mesh_.triangles[std::size_t(f.id)];
+      const Anchor hints[3] = {mesh_.anchors[t.v[0]], mesh_.anchors[t.v[1]], mesh_.anchors[t.v[2]]};
+      shrink(f, surface_->place(f.where, t.patch, hints).anchor);
+    }
     resize();
     for (Phase phase : repair_recipe(r_)) run_phase(phase);
   }
