@@ -32,18 +32,18 @@ inline void expect_sound(const TetMesh& mesh, const CheckOptions& options = {}) 
   EXPECT_TRUE(result.sound()) << result.message();
 }
 
-/// The same bytes: ids, places, tags, everything.
+/// The same bytes: ids, places, tags, everything. Says what differs, not how: meshes are long.
 inline void expect_same(const TetMesh& a, const TetMesh& b) {
-  EXPECT_EQ(a.points, b.points);
-  EXPECT_EQ(a.sizes, b.sizes);
-  EXPECT_EQ(a.vertex_tags, b.vertex_tags);
-  EXPECT_EQ(a.vertex_refs, b.vertex_refs);
-  EXPECT_EQ(a.vertex_tets, b.vertex_tets);
-  EXPECT_EQ(a.tets, b.tets);
-  EXPECT_EQ(a.links, b.links);
-  EXPECT_EQ(a.qualities, b.qualities);
-  EXPECT_EQ(a.tet_refs, b.tet_refs);
-  EXPECT_EQ(a.tet_flags, b.tet_flags);
+  EXPECT_TRUE(a.points == b.points) << "points";
+  EXPECT_TRUE(a.sizes == b.sizes) << "sizes";
+  EXPECT_TRUE(a.vertex_tags == b.vertex_tags) << "vertex_tags";
+  EXPECT_TRUE(a.vertex_refs == b.vertex_refs) << "vertex_refs";
+  EXPECT_TRUE(a.vertex_tets == b.vertex_tets) << "vertex_tets";
+  EXPECT_TRUE(a.tets == b.tets) << "tets";
+  EXPECT_TRUE(a.links == b.links) << "links";
+  EXPECT_TRUE(a.qualities == b.qualities) << "qualities";
+  EXPECT_TRUE(a.tet_refs == b.tet_refs) << "tet_refs";
+  EXPECT_TRUE(a.tet_flags == b.tet_flags) << "tet_flags";
   ASSERT_EQ(a.triangles.size(), b.triangles.size());
   for (std::size_t s = 0; s < a.triangles.size(); ++s) {
     const Triangle &x = a.triangles[s], &y = b.triangles[s];

@@ -1,0 +1,126 @@
+// The sizes that are asked for are the sizes that come out, at any scale and place.
+#include <cmath>
+
+#include "cavea/base/error.h"
+#include "remesh/support.h"
+
+namespace cavea::test {
+namespace {
+
+/// Fine near the corner (0, 0, 0), coarse away from it.
+double graded(const Vec3& p) { return 0.04 + 0.16 * norm(p); }
+
+TEST(Sizes, FollowTheField) {
+  TetMesh mesh = built(kuhn_cube(5));
+  const Report report = remesh(mesh, graded, {});
+  expect_sound(mesh);
+  expect_good(report);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const double asked = std::min(graded(mesh.points[v]), report.hmax);
+    // The field's slope is below the gradation's, so nothing else lowers the sizes; but a vertex
+    // that moves after they were last set keeps its own.
+    EXPECT_LE(mesh.sizes[v], 1.15 * asked);
+    EXPECT_GE(mesh.sizes[v], 0.8 * asked);
+  }
+}
+
+/// The mean length of the edges whose ends are both within a ball.
+double mean_length_near(const TetMesh& mesh, const Vec3& center, double radius) {
+  double sum = 0;
+  int edges = 0;
+  for (const auto& tet : mesh.tets)
+    for (const auto& e : kEdgeVertices) {
+      const Vec3 &a = mesh.points[tet[e[0]]], &b = mesh.points[tet[e[1]]];
+      if (distance(a, center) > radius || distance(b, center) > radius) continue;
+      sum += distance(a, b);
+      ++edges;
+    }
+  EXPECT_GT(edges, 0);
+  return sum / edges;
+}
+
+TEST(Sizes, AreLengthsInSpace) {
+  TetMesh mesh = built(kuhn_cube(5));
+  remesh(mesh, graded, {});
+  EXPECT_NEAR(mean_length_near(mesh, {0, 0, 0}, 0.15), 0.056, 0.015);
+  EXPECT_NEAR(mean_length_near(mesh, {1, 1, 1}, 0.5), 0.173, 0.04);
+}
+
+TEST(Sizes, StayWithinTheBounds) {
+  TetMesh mesh = built(kuhn_cube(4));
+  Options options;
+  options.hmin = 0.1;
+  options.hmax = 0.2;
+  const Report report = remesh(
+      mesh, [](const Vec3& p) { return p.x < 0.5 ? 0.01 : 10.0; }, options);
+  expect_sound(mesh);
+  expect_good(report);
+  EXPECT_EQ(report.hmin, 0.1);
+  EXPECT_EQ(report.hmax, 0.2);
+  for (const float size : mesh.sizes) {
+    EXPECT_GE(size, 0.1f);
+    EXPECT_LE(size, 0.2f);
+  }
+}
+
+TEST(Sizes, ThatAreNoneAreRefused) {
+  const TetMesh start = built(kuhn_cube(2));
+  for (const double size : {0.0, -1.0, std::nan("")}) {
+    TetMesh mesh = start;
+    EXPECT_THROW(remesh(mesh, [&](const Vec3& p) { return p.x > 0.9 ? size : 0.3; }, {}),
+                 InputError)
+        << size;
+    expect_same(mesh, start);
+  }
+}
+
+struct Motion {
+  const char* name;
+  double scale;
+  Vec3 shift;
+  double angle;
+};
+
+class Moved : public testing::TestWithParam<Motion> {
+ protected:
+  MeshData moved(const MeshData& data) const {
+    const Motion& m = GetParam();
+    const double c = std::cos(m.angle), s = std::sin(m.angle);
+    return mapped(data, [&](const Vec3& p) {
+      const Vec3 q = m.scale * p + m.shift;
+      const Vec3 r = {c * q.x - s * q.y, s * q.x + c * q.y, q.z};  // around z, then around x
+      return Vec3{r.x, c * r.y - s * r.z, s * r.y + c * r.z};
+    });
+  }
+};
+
+TEST_P(Moved, BodiesAreMeshedAsWell) {
+  const double scale = GetParam().scale;
+  for (const MeshData& data : {two_halves(4), ball(6)}) {
+    TetMesh still = built(data), mesh = built(moved(data));
+    Options options = uniform(0.11);
+    options.hausd = 0.003;
+    const Report expected = remesh(still, {}, options);
+    options.hsiz = 0.11 * scale;
+    options.hausd = 0.003 * scale;
+    const Report report = remesh(mesh, {}, options);
+    expect_sound(mesh);
+    expect_good(report);
+    EXPECT_NEAR(double(report.after.counts.tets), double(expected.after.counts.tets),
+                0.1 * double(expected.after.counts.tets));
+    EXPECT_NEAR(report.after.quality.mean, expected.after.quality.mean, 0.02);
+    EXPECT_EQ(euler(mesh), euler(still));
+    EXPECT_NEAR(report.after.counts.volume / std::pow(scale, 3), expected.after.counts.volume,
+                0.01 * expected.after.counts.volume);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Moved,
+                         testing::Values(Motion{"tiny", 1e-6, {0, 0, 0}, 0},
+                                         Motion{"huge", 1e6, {0, 0, 0}, 0},
+                                         Motion{"turned", 1, {0, 0, 0}, 0.7},
+                                         Motion{"far_away", 1, {1e4, -2e4, 3e4}, 0.3}),
+                         [](const auto& motion) { return std::string(motion.param.name); });
+
+}  // namespace
+}  // namespace cavea::test
