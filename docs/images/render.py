@@ -78,7 +78,7 @@ def main(before, after, out):
     for place, name, title in ((1, before, "before"), (2, after, "after")):
         draw(figure.add_subplot(1, 2, place, projection="3d"), name, title)
     figure.tight_layout()
-    figure.savefig(out, dpi=100, facecolor="white")
+    figure.savefig(out, dpi=100, facecolor="white", bbox_inches="tight")
 
 
 if __name__ == "__main__":
