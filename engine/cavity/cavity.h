@@ -13,12 +13,12 @@ struct NewTet {
   float quality = 0;
 };
 
-/// A local operation as a value: the tets and surface triangles that go and those that come. Operators
-/// fill it and read the mesh; only MeshEditor::commit() writes.
+/// A local operation as a value: the tets and surface triangles that go and those that come.
+/// Operators fill it and read the mesh; only MeshEditor::commit() writes.
 ///
-/// The new tets fill exactly the hole of the removed ones; their outer faces match those of the hole,
-/// except where removed triangles are replaced by new ones. New triangles need v, ref, patch, tags;
-/// their sides follow.
+/// The new tets fill exactly the hole of the removed ones; their outer faces match those of the
+/// hole, except where removed triangles are replaced by new ones. New triangles need v, ref, patch,
+/// tags; their sides follow.
 struct Cavity {
   std::vector<TetId> removed_tets;
   std::vector<NewTet> tets;

@@ -37,7 +37,7 @@ class MeshEditor {
   struct Face {
     std::array<VertexId, 3> key;
     std::uint32_t epoch = 0;
-    FaceLink link;       ///< a tet face to connect, a triangle to attach, or a cut
+    FaceLink link;         ///< a tet face to connect, a triangle to attach, or a cut
     std::int8_t side = 0;  ///< of the triangle, where the link is one; -1: a new triangle
     bool open = false;
   };

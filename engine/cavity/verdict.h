@@ -7,22 +7,22 @@ namespace cavea {
 /// What an operator says about a local operation; everything but accept says why not.
 enum class Verdict : std::uint8_t {
   kAccept,
-  kNotNeeded,      ///< nothing asks for it here
-  kInverted,       ///< a new tet would not be certainly positive
-  kWorseQuality,   ///< below the floor of the phase, or no gain
-  kOffSurface,     ///< the surface would leave its tolerance
-  kFolded,         ///< a surface triangle would turn away from the ideal surface
-  kBreaksFeature,  ///< a ridge, corner, reference or required entity forbids it
-  kBreaksTopology, ///< link condition
-  kBadLength,      ///< an edge would become too long or too short
-  kFrozen,         ///< belongs to the interface between parts
-  kTooLarge,       ///< a ring or ball beyond what the operator handles
+  kNotNeeded,       ///< nothing asks for it here
+  kInverted,        ///< a new tet would not be certainly positive
+  kWorseQuality,    ///< below the floor of the phase, or no gain
+  kOffSurface,      ///< the surface would leave its tolerance
+  kFolded,          ///< a surface triangle would turn away from the ideal surface
+  kBreaksFeature,   ///< a ridge, corner, reference or required entity forbids it
+  kBreaksTopology,  ///< link condition
+  kBadLength,       ///< an edge would become too long or too short
+  kFrozen,          ///< belongs to the interface between parts
+  kTooLarge,        ///< a ring or ball beyond what the operator handles
 };
 inline constexpr int kVerdicts = 11;
 
 inline const char* name(Verdict v) {
   constexpr std::array<const char*, kVerdicts> kNames = {
-      "accept",        "not_needed",      "inverted",   "worse_quality", "off_surface", "folded",
+      "accept",         "not_needed",      "inverted",   "worse_quality", "off_surface", "folded",
       "breaks_feature", "breaks_topology", "bad_length", "frozen",        "too_large"};
   return kNames[static_cast<std::size_t>(v)];
 }
@@ -38,8 +38,8 @@ enum class Operator : std::uint8_t {
 inline constexpr int kOperators = 6;
 
 inline const char* name(Operator o) {
-  constexpr std::array<const char*, kOperators> kNames = {"edge_split", "edge_collapse", "edge_swap",
-                                                          "face_swap",  "relocate",      "edge_star"};
+  constexpr std::array<const char*, kOperators> kNames = {
+      "edge_split", "edge_collapse", "edge_swap", "face_swap", "relocate", "edge_star"};
   return kNames[static_cast<std::size_t>(o)];
 }
 

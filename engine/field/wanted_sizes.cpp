@@ -27,8 +27,7 @@ void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>&
   });
   if (const VertexId v = senseless; v != kNone) {
     const Vec3& p = mesh.points[v];
-    throw InputError(
-        fmt::format("the size field is not positive at ({}, {}, {})", p.x, p.y, p.z));
+    throw InputError(fmt::format("the size field is not positive at ({}, {}, {})", p.x, p.y, p.z));
   }
   if (bounds.hmin < bounds.hmax) limit_gradation(mesh, bounds.hgrad);
 }

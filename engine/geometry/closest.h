@@ -3,8 +3,8 @@
 
 namespace cavea {
 
-/// The point of a triangle nearest to a given one, as barycentric coordinates of its second and third
-/// vertex, and its squared distance.
+/// The point of a triangle nearest to a given one, as barycentric coordinates of its second and
+/// third vertex, and its squared distance.
 struct ClosestOnTriangle {
   double u = 0, v = 0, distance2 = 0;
 };

@@ -18,8 +18,8 @@ inline double metric_length(double length, double h0, double h1) {
   return length * std::log(h1 / h0) / d;
 }
 
-/// The longest and shortest edge a mesh should have in its metric: an edge above is split, one below
-/// collapsed (paper, section 4.3: a unit mesh; the bounds that peers report against).
+/// The longest and shortest edge a mesh should have in its metric: an edge above is split, one
+/// below collapsed (paper, section 4.3: a unit mesh; the bounds that peers report against).
 inline constexpr double kLongEdge = 1.4142135623730951;
 inline constexpr double kShortEdge = 0.7071067811865476;
 

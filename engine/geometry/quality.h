@@ -20,9 +20,10 @@ inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   return kQualityFactor * volume / (edges * std::sqrt(edges));
 }
 
-/// Whether tet_quality(a, b, c, d) > limit, for limit >= 0, but for rounding: without the root and the
-/// division.
-inline bool quality_exceeds(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double limit) {
+/// Whether tet_quality(a, b, c, d) > limit, for limit >= 0, but for rounding: without the root and
+/// the division.
+inline bool quality_exceeds(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
+                            double limit) {
   const Vec3 ab = b - a, ac = c - a, ad = d - a, bc = c - b, bd = d - b, cd = d - c;
   const double volume = (kQualityFactor / 6.0) * dot(ab, cross(ac, ad));
   const double edges = norm2(ab) + norm2(ac) + norm2(ad) + norm2(bc) + norm2(bd) + norm2(cd);

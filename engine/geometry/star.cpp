@@ -5,8 +5,8 @@
 #include "cavea/geometry/quality.h"
 
 // The compiler makes a version for each of these instruction sets, chosen when the program starts.
-// Nothing is fused (-ffp-contract=off) and no sum is reordered, so all give the same bits. Sanitizers
-// start after that choice would be made.
+// Nothing is fused (-ffp-contract=off) and no sum is reordered, so all give the same bits.
+// Sanitizers start after that choice would be made.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__clang__)
 #define CAVEA_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
@@ -42,9 +42,9 @@ CAVEA_WIDE void prepare_faces(std::size_t n, In ax, In ay, In az, In bx, In by, 
   }
 }
 
-CAVEA_WIDE void star_qualities(std::size_t n, double x, double y, double z, In ax, In ay, In az, In bx,
-                               In by, In bz, In cx, In cy, In cz, In nx, In ny, In nz, In edges,
-                               Out quality) {
+CAVEA_WIDE void star_qualities(std::size_t n, double x, double y, double z, In ax, In ay, In az,
+                               In bx, In by, In bz, In cx, In cy, In cz, In nx, In ny, In nz,
+                               In edges, Out quality) {
   for (std::size_t i = 0; i < n; ++i) {
     const double ux = ax[i] - x, uy = ay[i] - y, uz = az[i] - z;
     const double vx = bx[i] - x, vy = by[i] - y, vz = bz[i] - z;
@@ -77,8 +77,9 @@ void Star::add(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 void Star::prepare() {
-  prepare_faces(count_, row(kAx), row(kAy), row(kAz), row(kBx), row(kBy), row(kBz), row(kCx), row(kCy),
-                row(kCz), row(kNx), row(kNy), row(kNz), row(kEdges), row(kHx), row(kHy), row(kHz));
+  prepare_faces(count_, row(kAx), row(kAy), row(kAz), row(kBx), row(kBy), row(kBz), row(kCx),
+                row(kCy), row(kCz), row(kNx), row(kNy), row(kNz), row(kEdges), row(kHx), row(kHy),
+                row(kHz));
 }
 
 void Star::evaluate(const Vec3& apex) {

@@ -6,8 +6,8 @@
 
 namespace cavea {
 
-/// The faces opposite a common apex, as arrays for wide registers: what the qualities of a ball need
-/// when its vertex is tried in many places. Gives the same bits on every instruction set.
+/// The faces opposite a common apex, as arrays for wide registers: what the qualities of a ball
+/// need when its vertex is tried in many places. Gives the same bits on every instruction set.
 class Star {
  public:
   void clear() { count_ = 0; }
@@ -22,12 +22,31 @@ class Star {
   void evaluate(const Vec3& apex);
   const double* qualities() const { return row(kQuality); }
 
-  /// The apex that would make the tet on face i as regular as the face allows: the height of a regular
-  /// tet over its centroid. The face's first vertex where it has no area.
+  /// The apex that would make the tet on face i as regular as the face allows: the height of a
+  /// regular tet over its centroid. The face's first vertex where it has no area.
   Vec3 ideal_apex(std::size_t i) const;
 
  private:
-  enum Row { kAx, kAy, kAz, kBx, kBy, kBz, kCx, kCy, kCz, kNx, kNy, kNz, kEdges, kQuality, kHx, kHy, kHz, kRows };
+  enum Row {
+    kAx,
+    kAy,
+    kAz,
+    kBx,
+    kBy,
+    kBz,
+    kCx,
+    kCy,
+    kCz,
+    kNx,
+    kNy,
+    kNz,
+    kEdges,
+    kQuality,
+    kHx,
+    kHy,
+    kHz,
+    kRows
+  };
   double* row(Row r) { return data_.data() + std::size_t(r) * capacity_; }
   const double* row(Row r) const { return data_.data() + std::size_t(r) * capacity_; }
   void grow();

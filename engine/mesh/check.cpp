@@ -196,7 +196,8 @@ CheckResult check_triangles(const TetMesh& mesh) {
     if (!s.alive()) return;
     for (int side = 0; side < 2; ++side) inspect_side(mesh, TriangleId(i), side, findings);
     const FaceLink a = s.sides[0], b = s.sides[1];
-    const bool elsewhere = a.is_cut() || (s.tags & tag::kFrozen);  // its first side: in another part
+    const bool elsewhere =
+        a.is_cut() || (s.tags & tag::kFrozen);  // its first side: in another part
     if (!a.is_tet() && !(elsewhere && b.is_tet())) findings.add("triangle {}: is on no tet", i);
     if (a.is_tet() && b.is_tet() && mesh.tet_refs[a.tet()] == mesh.tet_refs[b.tet()])
       findings.add("triangle {}: lies between tets {} and {} of one reference", i, a.tet(),

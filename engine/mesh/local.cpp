@@ -113,8 +113,8 @@ void gather_shell(const TetMesh& mesh, TetId start, int i, int j, Shell& shell) 
   std::rotate(shell.ring.begin(), shell.ring.begin() + std::ptrdiff_t(forward_ring),
               shell.ring.end());
   for (auto& x : shell.triangles) x.ring += shift;
-  std::rotate(shell.triangles.begin(),
-              shell.triangles.begin() + std::ptrdiff_t(forward_triangles), shell.triangles.end());
+  std::rotate(shell.triangles.begin(), shell.triangles.begin() + std::ptrdiff_t(forward_triangles),
+              shell.triangles.end());
 }
 
 }  // namespace cavea

@@ -29,7 +29,8 @@ class TetMarker {
   std::uint32_t epoch_ = 0;
 };
 
-/// The tets at a vertex, across interfaces too. In a part, the ball of a frozen vertex is truncated.
+/// The tets at a vertex, across interfaces too. In a part, the ball of a frozen vertex is
+/// truncated.
 struct Ball {
   VertexId v = kNone;
   std::vector<TetId> tets;

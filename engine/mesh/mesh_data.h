@@ -9,7 +9,8 @@
 namespace cavea {
 
 /// A mesh as plain lists, the way a file holds it: what readers produce and writers take. All
-/// indices are zero-based. Nothing but the index ranges need be true of it; build() judges the rest.
+/// indices are zero-based. Nothing but the index ranges need be true of it; build() judges the
+/// rest.
 struct MeshData {
   std::vector<Vec3> vertices;
   std::vector<std::int32_t> vertex_refs;

@@ -9,7 +9,8 @@
 namespace cavea {
 
 /// Upper ends of the length histogram's bins but the last (the bins that mmg prints).
-inline constexpr std::array<double, 8> kLengthBins = {0.3, 0.6, 0.70710678, 0.9, 1.3, 1.41421356, 2, 5};
+inline constexpr std::array<double, 8> kLengthBins = {0.3, 0.6,        0.70710678, 0.9,
+                                                      1.3, 1.41421356, 2,          5};
 
 struct QualityStatistics {
   double worst = 0, mean = 0;
@@ -17,7 +18,8 @@ struct QualityStatistics {
   Vec3 worst_place;                          ///< centroid of the worst tet
   std::array<std::int64_t, 10> histogram{};  ///< ten bins from 0 to 1; below 0 counts as 0
   double smallest_dihedral = 0, largest_dihedral = 0;  ///< degrees
-  std::array<std::int64_t, 18> dihedral_histogram{};   ///< all six angles of each tet, 10 degrees a bin
+  std::array<std::int64_t, 18>
+      dihedral_histogram{};  ///< all six angles of each tet, 10 degrees a bin
 };
 
 struct LengthStatistics {
@@ -26,14 +28,16 @@ struct LengthStatistics {
   Vec3 longest_place;
   std::int64_t conforming = 0;              ///< within [1/sqrt2, sqrt2]
   std::array<std::int64_t, 9> histogram{};  ///< by kLengthBins
-  double conforming_percent() const { return edges ? 100.0 * double(conforming) / double(edges) : 100; }
+  double conforming_percent() const {
+    return edges ? 100.0 * double(conforming) / double(edges) : 100;
+  }
 };
 
 struct Counts {
   std::int64_t vertices = 0, tets = 0, triangles = 0;
   std::int64_t ridges = 0, corners = 0, required_vertices = 0;  ///< ridges counts edges
   std::int64_t components = 0;                                  ///< of the volume, through faces
-  std::int64_t boundary_components = 0;                         ///< of the exterior surface, through edges
+  std::int64_t boundary_components = 0;  ///< of the exterior surface, through edges
   std::map<std::int32_t, std::int64_t> tets_of_ref, triangles_of_ref;
   std::map<std::int32_t, double> volume_of_ref;
   double volume = 0;

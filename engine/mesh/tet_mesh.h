@@ -51,13 +51,15 @@ class FaceLink {
 /// Tags of vertices, surface triangles and their edges; a set of bits.
 using Tag = std::uint16_t;
 namespace tag {
-inline constexpr Tag kSurface = 1;       ///< vertex: on a surface triangle
-inline constexpr Tag kRidge = 2;         ///< sharp edge; vertex: on one
-inline constexpr Tag kReferenceEdge = 4; ///< edge between references or given in the input; vertex: on one
-inline constexpr Tag kCorner = 8;        ///< vertex that must neither move nor vanish
-inline constexpr Tag kRequired = 16;     ///< must stay exactly as it is
-inline constexpr Tag kNonManifold = 32;  ///< edge of three or more surface triangles; vertex: on one
-inline constexpr Tag kFrozen = 64;       ///< vertex or triangle shared with another part
+inline constexpr Tag kSurface = 1;  ///< vertex: on a surface triangle
+inline constexpr Tag kRidge = 2;    ///< sharp edge; vertex: on one
+inline constexpr Tag kReferenceEdge =
+    4;  ///< edge between references or given in the input; vertex: on one
+inline constexpr Tag kCorner = 8;     ///< vertex that must neither move nor vanish
+inline constexpr Tag kRequired = 16;  ///< must stay exactly as it is
+inline constexpr Tag kNonManifold =
+    32;                             ///< edge of three or more surface triangles; vertex: on one
+inline constexpr Tag kFrozen = 64;  ///< vertex or triangle shared with another part
 /// Vertex of a required edge or tet inside the volume: an edge between two of them is not touched.
 inline constexpr Tag kOnRequiredEdge = 128;
 /// Vertex that stands on the straight edge because the place on the surface was not reachable.
@@ -84,8 +86,8 @@ struct Triangle {
   /// The tet faces it covers; sides[1] is unset on the exterior boundary.
   std::array<FaceLink, 2> sides{};
   std::int32_t ref = 0;
-  std::int32_t patch = 0;          ///< smooth piece of the snapshot that it belongs to
-  std::array<Tag, 3> edge_tag{};   ///< of the edge opposite each vertex
+  std::int32_t patch = 0;         ///< smooth piece of the snapshot that it belongs to
+  std::array<Tag, 3> edge_tag{};  ///< of the edge opposite each vertex
   std::array<std::int32_t, 3> edge_ref{};
   Tag tags = 0;
 
@@ -162,7 +164,8 @@ inline constexpr std::uint8_t kAskSwap = 2;
 inline constexpr std::uint8_t kAskMove = 4;    ///< same, for the relocation of its vertices
 inline constexpr std::uint8_t kAskLength = 8;  ///< same, for split and collapse of its edges
 inline constexpr std::uint8_t kAskAll = kAskSwap | kAskMove | kAskLength;
-/// Something was refused because the interface of the part is near: ask all again when it has moved.
+/// Something was refused because the interface of the part is near: ask all again when it has
+/// moved.
 inline constexpr std::uint8_t kAskLater = 16;
 }  // namespace tet_flag
 

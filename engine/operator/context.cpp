@@ -33,11 +33,12 @@ SurfaceFit fit_of(const OperatorContext& c, const std::vector<TriangleId>& trian
 
 Verdict judge_surface(const OperatorContext& c, const SurfaceFit& fit,
                       const std::vector<TriangleId>& old) {
-  // Cosine of the largest angle between a triangle and the ideal surface below it: 60 degrees, wider
-  // than half the default ridge angle so that coarse inputs are not stuck, narrow enough for no fold.
+  // Cosine of the largest angle between a triangle and the ideal surface below it: 60 degrees,
+  // wider than half the default ridge angle so that coarse inputs are not stuck, narrow enough for
+  // no fold.
   constexpr double kFoldCosine = 0.5;
   const double tolerance2 = c.limits.tolerance * c.limits.tolerance;
-  const bool folded = fit.cosine < kFoldCosine, off = fit.deviation2 > tolerance2;
+  const bool folded = fit.cosine<kFoldCosine, off = fit.deviation2> tolerance2;
   if (!folded && !off) return Verdict::kAccept;
   const SurfaceFit before = fit_of(c, old);
   if (folded && fit.cosine < before.cosine) return Verdict::kFolded;

@@ -18,7 +18,8 @@ struct Limits {
   double short_edge = kShortEdge;  ///< edges below are collapsed
   /// No split makes an edge shorter than this, except its own halves.
   double shortest_made = 0;
-  /// A split or collapse may lower the worst quality of its cavity to this fraction of what it was...
+  /// A split or collapse may lower the worst quality of its cavity to this fraction of what it
+  /// was...
   double quality_ratio = 0.5;
   /// ... or to this value.
   double quality_floor = 0.3;
@@ -53,16 +54,16 @@ struct OperatorContext {
   double quality(VertexId a, VertexId b, VertexId c, VertexId d) const {
     return tet_quality(point(a), point(b), point(c), point(d));
   }
-  /// Lowest quality that a split or collapse may leave where the worst was `before`. From a bad start
-  /// any progress is progress.
+  /// Lowest quality that a split or collapse may leave where the worst was `before`. From a bad
+  /// start any progress is progress.
   double lowest_allowed(double before) const {
     return std::min(limits.quality_floor, limits.quality_ratio * before);
   }
 };
 
-/// The smallest quality that counts as a tet at all. One that is above is certainly positive: six times
-/// its volume is at least 4e-8 of (sum of squared edges)^(3/2), which bounds the permanent of orient3d,
-/// and so tens of millions of times the rounding error (certainly_positive()).
+/// The smallest quality that counts as a tet at all. One that is above is certainly positive: six
+/// times its volume is at least 4e-8 of (sum of squared edges)^(3/2), which bounds the permanent of
+/// orient3d, and so tens of millions of times the rounding error (certainly_positive()).
 inline constexpr double kFlat = 1e-6;
 
 /// An operation for the sake of quality must raise the worst quality of its cavity by at least this
@@ -71,7 +72,7 @@ inline constexpr double kQualityGain = 1.02;
 
 /// How surface triangles fit the ideal surface: the worst of several.
 struct SurfaceFit {
-  double cosine = 1;      ///< between a triangle's normal and the ideal surface's below its centroid
+  double cosine = 1;  ///< between a triangle's normal and the ideal surface's below its centroid
   double deviation2 = 0;  ///< largest squared distance of the sample points
 
   void add(const SurfaceFit& other) {
@@ -81,8 +82,8 @@ struct SurfaceFit {
 };
 
 /// Fit of one triangle of `patch`; `hints` are anchors near it.
-SurfaceFit fit_triangle(const OperatorContext& context, const std::array<Vec3, 3>& corners, int patch,
-                        std::span<const Anchor> hints);
+SurfaceFit fit_triangle(const OperatorContext& context, const std::array<Vec3, 3>& corners,
+                        int patch, std::span<const Anchor> hints);
 
 /// Fit of triangles of the mesh as they stand.
 SurfaceFit fit_of(const OperatorContext& context, const std::vector<TriangleId>& triangles);

@@ -15,8 +15,8 @@ int index_in(const Triangle& t, VertexId v) {
   return t.v[0] == v ? 0 : t.v[1] == v ? 1 : t.v[2] == v ? 2 : 3;
 }
 
-/// May p vanish into q? The table of section 4.1.2: interior onto all; smooth surface along the surface;
-/// feature vertices along their own curve; corners, required and frozen vertices never.
+/// May p vanish into q? The table of section 4.1.2: interior onto all; smooth surface along the
+/// surface; feature vertices along their own curve; corners, required and frozen vertices never.
 Verdict may_merge(const OperatorContext& c) {
   const Shell& s = c.shell;
   const Tag p = c.tags(s.p);
@@ -51,8 +51,8 @@ bool next_to(const TetMesh& m, const Ball& ball, VertexId v) {
 }
 
 /// Link condition on the surface: a vertex next to p on the surface and next to q at all is a third
-/// vertex of a triangle at pq, and no new surface triangle is there already. Positive volumes do not
-/// see such pinches.
+/// vertex of a triangle at pq, and no new surface triangle is there already. Positive volumes do
+/// not see such pinches.
 Verdict check_link(OperatorContext& c, const std::vector<TriangleId>& fan) {
   const Shell& s = c.shell;
   // Not all of q's tets would be in its ball.
@@ -138,7 +138,8 @@ Verdict check_curve(const OperatorContext& c, const std::vector<TriangleId>& fan
   const double tolerance2 = c.limits.tolerance * c.limits.tolerance;
   if (closest_on_segment(p, a, b).distance2 > tolerance2) return Verdict::kOffSurface;
   const Anchor hints[1] = {c.mesh.anchors[s.p]};
-  if (c.surface.place_on_curve((a + b) / 2, hints).distance2 > tolerance2) return Verdict::kOffSurface;
+  if (c.surface.place_on_curve((a + b) / 2, hints).distance2 > tolerance2)
+    return Verdict::kOffSurface;
   return Verdict::kAccept;
 }
 

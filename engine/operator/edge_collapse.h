@@ -3,11 +3,10 @@
 
 namespace cavea {
 
-/// Edge collapse (paper, section 4.1.2): merges p into q. The ball of p is refilled by its tets with q
-/// in place of p.
-/// \pre context.shell is the shell of the edge, with shell.p == p and shell.q == q.
-/// \param quality_gain when true the collapse is wanted for the sake of quality: it must raise the
-/// worst quality, and may leave long edges as long as that holds.
+/// Edge collapse (paper, section 4.1.2): merges p into q. The ball of p is refilled by its tets
+/// with q in place of p. \pre context.shell is the shell of the edge, with shell.p == p and shell.q
+/// == q. \param quality_gain when true the collapse is wanted for the sake of quality: it must
+/// raise the worst quality, and may leave long edges as long as that holds.
 Verdict edge_collapse(OperatorContext& context, bool quality_gain, Cavity& cavity);
 
 }  // namespace cavea

@@ -36,8 +36,8 @@ Verdict may_split(const OperatorContext& c, EdgeOnSurface& edge) {
   return edge.tags & tag::kRequired ? Verdict::kBreaksFeature : Verdict::kAccept;
 }
 
-/// Qualities of the two halves of each tet of the shell with the vertex at x; the worst, or 0 when one
-/// is flat.
+/// Qualities of the two halves of each tet of the shell with the vertex at x; the worst, or 0 when
+/// one is flat.
 double halves(const OperatorContext& c, const Vec3& x, std::vector<float>& qualities) {
   const Shell& s = c.shell;
   double worst = 1;
@@ -99,8 +99,7 @@ Verdict edge_split(OperatorContext& c, VertexId vertex_id, Cavity& cavity) {
   if (const Verdict v = may_split(c, edge); v != Verdict::kAccept) return v;
   double before = 1;
   for (TetId t : c.shell.tets) before = std::min(before, double(c.mesh.qualities[t]));
-  NewVertex vertex =
-      midpoint(c.mesh, c.surface, c.shell.p, c.shell.q, edge.triangle, edge.side);
+  NewVertex vertex = midpoint(c.mesh, c.surface, c.shell.p, c.shell.q, edge.triangle, edge.side);
   if (makes_short_edge(c, vertex)) return Verdict::kBadLength;
   const Vec3 straight = (c.point(c.shell.p) + c.point(c.shell.q)) / 2, target = vertex.point;
   // Splitting a flat tet gives flat tets; only where all of them are sound need the halves be.

@@ -10,7 +10,8 @@ constexpr double kFirstStep = 0.25;
 /// The new vertex must gain more than a swap to be worth a vertex.
 constexpr double kStarGain = 1.2;
 
-/// Calls f(p, q, r, t, tet) for the two children of each tet of the shell, `x` standing for the vertex.
+/// Calls f(p, q, r, t, tet) for the two children of each tet of the shell, `x` standing for the
+/// vertex.
 template <class F>
 bool for_each_child(const OperatorContext& c, const Vec3& x, F&& f) {
   const Shell& s = c.shell;
@@ -24,10 +25,11 @@ bool for_each_child(const OperatorContext& c, const Vec3& x, F&& f) {
 /// Worst quality of the star, or `limit` where it does not exceed that.
 double worst_of_star(const OperatorContext& c, const Vec3& x, double limit) {
   double worst = 1;
-  const bool above = for_each_child(c, x, [&](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& t) {
-    worst = std::min(worst, tet_quality(p, q, r, t));
-    return worst > limit;
-  });
+  const bool above =
+      for_each_child(c, x, [&](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& t) {
+        worst = std::min(worst, tet_quality(p, q, r, t));
+        return worst > limit;
+      });
   return above ? worst : limit;
 }
 

@@ -8,8 +8,8 @@ namespace {
 /// Rings with more vertices are left alone: 99.5% have at most 7, and the work grows with the cube.
 constexpr int kMaxRing = 10;
 
-/// The best triangulation of a polygon ring[0..n): best_[i][j] is the largest worst quality over the
-/// sub-polygon i..j, apex_[i][j] the vertex of the triangle on its side (i, j).
+/// The best triangulation of a polygon ring[0..n): best_[i][j] is the largest worst quality over
+/// the sub-polygon i..j, apex_[i][j] the vertex of the triangle on its side (i, j).
 class RingTriangulation {
  public:
   RingTriangulation(const OperatorContext& c, VertexId p, VertexId q, const VertexId* ring, int n)
@@ -18,7 +18,8 @@ class RingTriangulation {
   /// Worst quality of the best triangulation, or 0 if none is better than `threshold`.
   double solve(double threshold) {
     for (int gap = 1; gap < n_; ++gap)
-      for (int i = 0; i + gap < n_; ++i) best_[i][i + gap] = gap == 1 ? 1.0 : solve(i, i + gap, threshold);
+      for (int i = 0; i + gap < n_; ++i)
+        best_[i][i + gap] = gap == 1 ? 1.0 : solve(i, i + gap, threshold);
     return best_[0][n_ - 1];
   }
 

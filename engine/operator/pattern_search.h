@@ -4,8 +4,8 @@
 namespace cavea {
 
 /// Climbs from `x` to a place where value(place) is larger: steps along the axes, halved where none
-/// helps (Hooke and Jeeves 1961). `best` is value(x) before and after. The worst quality of a ball is
-/// not smooth, so there is no gradient to follow.
+/// helps (Hooke and Jeeves 1961). `best` is value(x) before and after. The worst quality of a ball
+/// is not smooth, so there is no gradient to follow.
 template <class Value>
 Vec3 pattern_search(Vec3 x, double step, double& best, Value&& value) {
   constexpr int kHalvings = 5, kClimbs = 4;

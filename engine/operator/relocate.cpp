@@ -1,5 +1,6 @@
 #include "cavea/operator/relocate.h"
 
+#include <bit>
 #include <cmath>
 
 #include "cavea/operator/pattern_search.h"
@@ -30,8 +31,8 @@ void prepare_star(OperatorContext& c, VertexId v) {
   c.star.prepare();
 }
 
-/// Mean, weighted towards bad tets, of the places of the vertex that would make each tet of its ball
-/// as regular as its face opposite allows.
+/// Mean, weighted towards bad tets, of the places of the vertex that would make each tet of its
+/// ball as regular as its face opposite allows.
 Vec3 ideal_place(const OperatorContext& c) {
   constexpr float kWorstCounted = 0.05f;  // bounds the weight of a bad tet
   Vec3 sum{};
@@ -106,7 +107,8 @@ Verdict check_fan(const OperatorContext& c, VertexId v, const NewVertex& to) {
     const Triangle& t = c.mesh.triangles[id];
     std::array<Vec3, 3> x;
     for (std::size_t k = 0; k < 3; ++k) x[k] = t.v[k] == v ? to.point : c.point(t.v[k]);
-    const Anchor hints[3] = {to.anchor, c.mesh.anchors[t.v[t.v[0] == v ? 1 : 0]], c.mesh.anchors[v]};
+    const Anchor hints[3] = {to.anchor, c.mesh.anchors[t.v[t.v[0] == v ? 1 : 0]],
+                             c.mesh.anchors[v]};
     fit.add(fit_triangle(c, x, t.patch, hints));
   }
   return judge_surface(c, fit, c.fan);
@@ -136,11 +138,12 @@ Verdict climb_on_surface(OperatorContext& c, VertexId v, const BallQuality& befo
   constexpr double kFirstStep = 0.15;
   double best = before.worst;
   BallQuality after;
-  const Vec3 x = pattern_search(c.point(v), kFirstStep * to.size, best, [&](const Vec3& y, double limit) {
-    const SurfacePoint at = on_surface(c, v, y);
-    if (at.anchor.facet == kNone || !evaluate(c, at.point, limit, after)) return limit;
-    return after.worst;
-  });
+  const Vec3 x =
+      pattern_search(c.point(v), kFirstStep * to.size, best, [&](const Vec3& y, double limit) {
+        const SurfacePoint at = on_surface(c, v, y);
+        if (at.anchor.facet == kNone || !evaluate(c, at.point, limit, after)) return limit;
+        return after.worst;
+      });
   if (best <= kQualityGain * before.worst) return Verdict::kWorseQuality;
   const SurfacePoint at = on_surface(c, v, x);
   to.point = at.point;
@@ -212,6 +215,21 @@ Verdict relocate_inside(OperatorContext& c, VertexId v, NewVertex& to) {
   return climb(c, v, before, to) ? Verdict::kAccept : Verdict::kWorseQuality;
 }
 
+/// A unit vector that looks random and depends on the bits of a place.
+Vec3 direction_of(const Vec3& p) {
+  auto mix = [](std::uint64_t h) {  // splitmix64
+    h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9u;
+    h = (h ^ (h >> 27)) * 0x94D049BB133111EBu;
+    return h ^ (h >> 31);
+  };
+  std::uint64_t h = 0x9E3779B97F4A7C15u;
+  for (const double x : {p.x, p.y, p.z}) h = mix(h + std::bit_cast<std::uint64_t>(x));
+  auto next = [&] { return double((h = mix(h + 1)) >> 11) * 0x1p-52 - 1; };
+  Vec3 d;
+  d.x = next(), d.y = next(), d.z = next();
+  return normalized(d);
+}
+
 }  // namespace
 
 Verdict relocate(OperatorContext& c, VertexId v, NewVertex& to) {
@@ -227,6 +245,22 @@ Verdict relocate(OperatorContext& c, VertexId v, NewVertex& to) {
       tags & tag::kSurface ? relocate_on_surface(c, v, to) : relocate_inside(c, v, to);
   if (verdict == Verdict::kAccept) keep_qualities(c);
   return verdict;
+}
+
+Verdict shake(OperatorContext& c, VertexId v, double below, double floor, NewVertex& to) {
+  constexpr double kStep = 0.2;  // of the wanted size
+  const Tag tags = c.tags(v);
+  if (tags & (tag::kFrozen | tag::kSurface | tag::kRequired)) return Verdict::kFrozen;
+  gather_ball(c.mesh, v, c.marker, c.ball);
+  if (c.ball.cut) return Verdict::kFrozen;
+  if (now(c).sum > below * double(c.ball.tets.size())) return Verdict::kNotNeeded;
+  prepare_star(c, v);
+  to = {c.point(v), c.mesh.sizes[v], tags, c.mesh.vertex_refs[v], c.mesh.anchors[v]};
+  to.point += kStep * to.size * direction_of(to.point);
+  BallQuality after;
+  if (!evaluate(c, to.point, floor, after)) return Verdict::kWorseQuality;
+  keep_qualities(c);
+  return Verdict::kAccept;
 }
 
 }  // namespace cavea

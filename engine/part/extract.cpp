@@ -13,7 +13,8 @@ namespace {
 constexpr std::int32_t kShared = -2;
 
 /// The part of each vertex, or kShared.
-std::vector<std::int32_t> vertex_parts(const TetMesh& mesh, const std::vector<std::int32_t>& labels) {
+std::vector<std::int32_t> vertex_parts(const TetMesh& mesh,
+                                       const std::vector<std::int32_t>& labels) {
   std::vector<std::int32_t> part(mesh.points.size(), kNone);
   parallel_for(mesh.tets.size(), [&](std::size_t t) {
     for (VertexId v : mesh.tets[t]) {
@@ -65,7 +66,10 @@ struct Whole {
 class Extraction {
  public:
   Extraction(Whole& whole, int number, Part& part)
-      : whole_(whole), number_(number), part_(part), tets_(whole.tets.buckets.of(std::size_t(number))) {}
+      : whole_(whole),
+        number_(number),
+        part_(part),
+        tets_(whole.tets.buckets.of(std::size_t(number))) {}
 
   void run() {
     take_vertices();
@@ -76,9 +80,7 @@ class Extraction {
   }
 
  private:
-  bool here(FaceLink side) const {
-    return side.is_tet() && whole_.labels[side.tet()] == number_;
-  }
+  bool here(FaceLink side) const { return side.is_tet() && whole_.labels[side.tet()] == number_; }
   FaceLink local_face(FaceLink side) const {
     return here(side) ? FaceLink::to_tet(whole_.tets.local[side.tet()], side.face()) : FaceLink();
   }
@@ -150,7 +152,8 @@ class Extraction {
   void take_triangle(TriangleId id, Tag extra) {
     Triangle t = whole_.mesh.triangles[id];
     for (std::size_t side = 0; side < 2; ++side) {
-      if (here(t.sides[side])) whole_.local_triangle[id][side] = TriangleId(part_.mesh.triangles.size());
+      if (here(t.sides[side]))
+        whole_.local_triangle[id][side] = TriangleId(part_.mesh.triangles.size());
       t.sides[side] = local_face(t.sides[side]);
     }
     for (VertexId& v : t.v) v = local_vertex(v);
@@ -223,8 +226,7 @@ std::vector<Part> extract_parts(const TetMesh& mesh, const std::vector<std::int3
               std::vector<std::array<TriangleId, 2>>(mesh.triangles.size(), {kNone, kNone}),
               std::vector<std::vector<std::int32_t>>(std::size_t(parts))};
   std::vector<Part> result(static_cast<std::size_t>(parts));
-  parallel_tasks(result.size(),
-                 [&](std::size_t p) { Extraction(whole, int(p), result[p]).run(); });
+  parallel_tasks(result.size(), [&](std::size_t p) { Extraction(whole, int(p), result[p]).run(); });
   pair_cuts(whole.cut_keys, result);
   return result;
 }

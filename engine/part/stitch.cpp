@@ -18,8 +18,11 @@ struct NewIds {
 class Stitch {
  public:
   Stitch(std::vector<Part>& parts, std::size_t vertices, std::size_t triangles)
-      : parts_(parts), ids_(parts.size()), shared_vertex_(vertices, kNone),
-        shared_triangle_(triangles, kNone), vertex_owner_(vertices, kNone) {}
+      : parts_(parts),
+        ids_(parts.size()),
+        shared_vertex_(vertices, kNone),
+        shared_triangle_(triangles, kNone),
+        vertex_owner_(vertices, kNone) {}
 
   TetMesh run() {
     own_shared_vertices();
@@ -130,7 +133,8 @@ class Stitch {
     for (std::size_t v = 0; v < m.points.size(); ++v) {
       const VertexId to = ids_[p].vertex[v];
       const bool is_shared = shared(part, v);
-      if (to == kNone || (is_shared && vertex_owner_[whole_id(part, v)] != std::int32_t(p))) continue;
+      if (to == kNone || (is_shared && vertex_owner_[whole_id(part, v)] != std::int32_t(p)))
+        continue;
       out_.points[to] = m.points[v];
       out_.sizes[to] = m.sizes[v];
       out_.vertex_tags[to] = Tag((m.vertex_tags[v] & ~(tag::kFrozen | tag::kWasInterface)) |
@@ -153,7 +157,8 @@ class Stitch {
       out_.qualities[to] = m.qualities[t];
       out_.tet_refs[to] = m.tet_refs[t];
       std::uint8_t flags = m.tet_flags[t];
-      if (flags & tet_flag::kAskLater) flags = std::uint8_t((flags | tet_flag::kAskAll) & ~tet_flag::kAskLater);
+      if (flags & tet_flag::kAskLater)
+        flags = std::uint8_t((flags | tet_flag::kAskAll) & ~tet_flag::kAskLater);
       out_.tet_flags[to] = flags;
     }
   }

@@ -11,8 +11,8 @@ namespace cavea {
 struct CycleSettings {
   Limits limits;
   bool split = true, collapse = true, swap = true, move = true;
-  /// Split surface edges whose middle is farther from the ideal surface than the tolerance, too, down
-  /// to this Euclidean length; 0: never.
+  /// Split surface edges whose middle is farther from the ideal surface than the tolerance, too,
+  /// down to this Euclidean length; 0: never.
   double shortest_fitted = 0;
   int sweeps = 6;
   /// Stop splitting when the part has this many tets: it is then partitioned anew.
@@ -21,6 +21,10 @@ struct CycleSettings {
   double swap_ceiling = 1;
   /// Only vertices with a tet worse than this are relocated.
   double move_ceiling = 1;
+  /// In the first sweep, interior vertices whose ball is on the average worse than this are moved a
+  /// little at random (by their place alone, not by a clock): out of regular lattices, where all
+  /// tets are alike and no single operation gains.
+  double shake_below = 0;
   /// Tets worse than this are also offered collapses for the sake of quality.
   double repair_below = 0;
   const std::atomic<bool>* cancel = nullptr;
@@ -32,10 +36,10 @@ struct CycleResult {
   bool full = false;         ///< stopped splitting at most_tets
 };
 
-/// Runs sweeps of split, collapse, swap and relocation (paper, section 4.3) on one mesh until nothing
-/// is left to do or `sweeps` are done. Serial and a function of the mesh and the settings alone. Only
-/// tets flagged kAsk... are asked; the flags that remain say what is still open.
-/// \throw Cancelled
+/// Runs sweeps of split, collapse, swap and relocation (paper, section 4.3) on one mesh until
+/// nothing is left to do or `sweeps` are done. Serial and a function of the mesh and the settings
+/// alone. Only tets flagged kAsk... are asked; the flags that remain say what is still open. \throw
+/// Cancelled
 CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings);
 
 }  // namespace cavea

@@ -30,8 +30,8 @@ void for_each_asked_edge(const TetMesh& m, F&& f) {
   }
 }
 
-/// Shorter edges are not split for the fit: the sizes follow the curvature, so what still does not fit
-/// has other reasons.
+/// Shorter edges are not split for the fit: the sizes follow the curvature, so what still does not
+/// fit has other reasons.
 constexpr double kFittedLength = 0.9;
 
 /// How far the middle of a surface edge is from the ideal surface, in tolerances.
@@ -56,7 +56,8 @@ void add_misfits(const PartState& s, TetId tet, std::vector<EdgeTask>& tasks) {
     for (int k = 0; k < 3; ++k)
       if (const double x = misfit(s, t, k); x > 1) {
         const VertexId a = t.v[(k + 1) % 3], b = t.v[(k + 2) % 3];
-        tasks.push_back({float(s.context.limits.long_edge * x), std::min(a, b), std::max(a, b), tet});
+        tasks.push_back(
+            {float(s.context.limits.long_edge * x), std::min(a, b), std::max(a, b), tet});
       }
   }
 }
@@ -66,7 +67,8 @@ std::vector<EdgeTask> split_tasks(const PartState& s) {
   const Limits& limits = s.context.limits;
   std::vector<EdgeTask> tasks;
   for_each_asked_edge(m, [&](TetId t, int i, int j) {
-    const VertexId a = std::min(m.tets[t][i], m.tets[t][j]), b = std::max(m.tets[t][i], m.tets[t][j]);
+    const VertexId a = std::min(m.tets[t][i], m.tets[t][j]),
+                   b = std::max(m.tets[t][i], m.tets[t][j]);
     if (const double length = s.context.length(a, b); length > limits.long_edge)
       tasks.push_back({float(length), a, b, t});
     if (i == 0 && j == 1 && s.settings.shortest_fitted > 0) add_misfits(s, t, tasks);
@@ -79,7 +81,8 @@ std::vector<EdgeTask> collapse_tasks(const PartState& s) {
   const TetMesh& m = s.context.mesh;
   std::vector<EdgeTask> tasks;
   for_each_asked_edge(m, [&](TetId t, int i, int j) {
-    const VertexId a = std::min(m.tets[t][i], m.tets[t][j]), b = std::max(m.tets[t][i], m.tets[t][j]);
+    const VertexId a = std::min(m.tets[t][i], m.tets[t][j]),
+                   b = std::max(m.tets[t][i], m.tets[t][j]);
     if (const double length = s.context.length(a, b); length < s.context.limits.short_edge)
       tasks.push_back({float(-length), a, b, t});
   });
@@ -97,8 +100,8 @@ bool find_edge(PartState& s, const EdgeTask& task, VertexId p, VertexId q) {
   return true;
 }
 
-/// Calls work(task) for each task whose edge still stands, once an edge unless it is refused for a tet
-/// that has changed since.
+/// Calls work(task) for each task whose edge still stands, once an edge unless it is refused for a
+/// tet that has changed since.
 template <class F>
 std::int64_t for_each_task(PartState& s, const std::vector<EdgeTask>& tasks, F&& work) {
   std::int64_t done = 0;

@@ -32,5 +32,6 @@ std::int64_t split_pass(PartState& state);
 std::int64_t collapse_pass(PartState& state);
 std::int64_t swap_pass(PartState& state);
 std::int64_t move_pass(PartState& state);
+std::int64_t shake_pass(PartState& state);
 
 }  // namespace cavea

@@ -10,12 +10,15 @@
 namespace cavea {
 namespace {
 
+/// Shaking leaves no tet worse than this; swaps and relocations mend it easily.
+constexpr double kShakenFloor = 0.3;
+
 /// Face swaps of better tets succeed less than once in a thousand.
 constexpr double kFaceSwapBelow = 0.5;
 
 /// The quality worklist of one part. Each edge and face is asked once after anything around it has
-/// changed: a tet is stamped when it changes and when it asks, and what an edge's shell asked after its
-/// last change need not be asked again from another tet of the shell.
+/// changed: a tet is stamped when it changes and when it asks, and what an edge's shell asked after
+/// its last change need not be asked again from another tet of the shell.
 class SwapQueue {
  public:
   explicit SwapQueue(PartState& s) : s_(s), m_(s.mesh()) {
@@ -40,7 +43,8 @@ class SwapQueue {
 
  private:
   void enqueue(TetId t) {
-    if (std::size_t(t) >= changed_.size()) changed_.resize(std::size_t(t) + 1), asked_.resize(std::size_t(t) + 1);
+    if (std::size_t(t) >= changed_.size())
+      changed_.resize(std::size_t(t) + 1), asked_.resize(std::size_t(t) + 1);
     changed_[t] = clock_;
     asked_[t] = 0;
     queue_.push_back(t);
@@ -48,7 +52,8 @@ class SwapQueue {
 
   bool asked_before(const std::vector<TetId>& tets) const {
     std::uint32_t asked = 0, changed = 0;
-    for (TetId t : tets) asked = std::max(asked, asked_[t]), changed = std::max(changed, changed_[t]);
+    for (TetId t : tets)
+      asked = std::max(asked, asked_[t]), changed = std::max(changed, changed_[t]);
     return asked > changed;
   }
 
@@ -96,7 +101,8 @@ class SwapQueue {
     for (const auto& e : kEdgeVertices)
       for (int way = 0; way < 2; ++way) {
         gather_shell(m_, t, e[way], e[1 - way], s_.context.shell);
-        if (!s_.count(Operator::kEdgeCollapse, edge_collapse(s_.context, true, s_.cavity))) continue;
+        if (!s_.count(Operator::kEdgeCollapse, edge_collapse(s_.context, true, s_.cavity)))
+          continue;
         committed();
         return true;
       }
@@ -145,6 +151,19 @@ std::int64_t move_pass(PartState& s) {
     if (!s.count(Operator::kRelocate, relocate(s.context, VertexId(v), to))) continue;
     s.editor.move(VertexId(v), to, s.context.ball.tets, s.context.qualities);
     ++s.result.changes;
+    ++done;
+  }
+  return done;
+}
+
+std::int64_t shake_pass(PartState& s) {
+  std::int64_t done = 0;
+  NewVertex to;
+  for (std::size_t v = 0; v < s.mesh().points.size(); ++v) {
+    if (!s.mesh().vertex_alive(VertexId(v))) continue;
+    const Verdict verdict = shake(s.context, VertexId(v), s.settings.shake_below, kShakenFloor, to);
+    if (verdict != Verdict::kAccept) continue;
+    s.editor.move(VertexId(v), to, s.context.ball.tets, s.context.qualities);
     ++done;
   }
   return done;

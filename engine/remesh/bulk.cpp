@@ -40,7 +40,8 @@ double share_to_divide(const TetMesh& m) {
 
 }  // namespace
 
-int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, const std::function<void()>& resize) {
+int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface,
+                   const std::function<void()>& resize) {
   int level = 0;
   for (; level < kMostLevels && share_to_divide(mesh) > kWorthwhile; ++level) {
     auto required = [&](const MeshEdge& e) {

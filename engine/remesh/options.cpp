@@ -35,7 +35,8 @@ void validate(const Options& o) {
   require_range(o.angle, 0, 180, "angle");
   require_range(o.min_quality, 0, 1, "min_quality");
   require_range(o.min_conform, 0, 100, "min_conform");
-  if (o.threads < 0) throw OptionError(fmt::format("threads must be at least 1, not {}", o.threads));
+  if (o.threads < 0)
+    throw OptionError(fmt::format("threads must be at least 1, not {}", o.threads));
 }
 
 ResolvedOptions resolve(const Options& o, double box_diagonal) {

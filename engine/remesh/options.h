@@ -25,12 +25,12 @@ struct Options {
   double angle = 45;            ///< degrees between normals above which an edge is a ridge
   bool detect_ridges = true;
 
-  double min_quality = 0.1;   ///< target: worst quality
-  double min_conform = 90;    ///< target: percent of lengths within [1/sqrt2, sqrt2]
+  double min_quality = 0.1;  ///< target: worst quality
+  double min_conform = 90;   ///< target: percent of lengths within [1/sqrt2, sqrt2]
 
-  int threads = 0;  ///< 0: all cores
-  std::function<void(const Progress&)> progress;       ///< called from the calling thread only
-  const std::atomic<bool>* cancel = nullptr;           ///< when true, remesh() throws Cancelled
+  int threads = 0;                                ///< 0: all cores
+  std::function<void(const Progress&)> progress;  ///< called from the calling thread only
+  const std::atomic<bool>* cancel = nullptr;      ///< when true, remesh() throws Cancelled
 };
 
 /// \throw OptionError naming the option and why: not finite, not positive, contradictory.

@@ -5,7 +5,7 @@ namespace {
 
 /// Operators keep this share of the tolerance, so that what lies between their sample points stays
 /// within all of it.
-constexpr double kOperatorShare = 0.7;
+constexpr double kOperatorShare = 0.8;
 
 /// Surface edges of at least this many hmin are split where they do not fit the surface.
 constexpr double kFittedEdge = 1.5;
@@ -17,7 +17,8 @@ CycleSettings base(const ResolvedOptions& o) {
   return s;
 }
 
-/// Lengths outside the paper's rough bounds only (section 4.3, step 4), with loss of quality allowed.
+/// Lengths outside the paper's rough bounds only (section 4.3, step 4), with loss of quality
+/// allowed.
 Phase rough(const ResolvedOptions& o) {
   Phase p{"rough", base(o), 2, 0.05, 8};
   p.cycle.limits.long_edge = 2.0;
@@ -32,6 +33,7 @@ Phase rough(const ResolvedOptions& o) {
 
 Phase fine(const ResolvedOptions& o) {
   Phase p{"fine", base(o), 3, 0.02, 8};
+  p.cycle.shake_below = 0.72;
   p.ask = tet_flag::kAskLength;
   p.cycle.limits.shortest_made = 0.6;
   p.cycle.limits.quality_ratio = 0.7;

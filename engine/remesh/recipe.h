@@ -20,8 +20,8 @@ struct Phase {
   bool resize = true;  ///< sets the wanted sizes anew before each round
 };
 
-/// The phases of section 4.3: rough sampling of the surface, rough and fine adaptation to the sizes,
-/// and a last polish of quality.
+/// The phases of section 4.3: rough sampling of the surface, rough and fine adaptation to the
+/// sizes, and a last polish of quality.
 std::vector<Phase> recipe(const ResolvedOptions& options);
 
 /// The phases that adapt an almost finished mesh to sizes that have changed in places.

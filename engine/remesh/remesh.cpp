@@ -71,16 +71,16 @@ class Run {
     report_.before.counts = count(mesh_);
     report_.before.quality = quality_statistics(mesh_);
     classify_features(mesh_, {options_.angle, options_.detect_ridges});
-    surface_.emplace(mesh_, SurfaceModel::Settings{r_.hausd, kMaxBulge * r_.hausd, r_.hmin, r_.hmax});
+    surface_.emplace(mesh_,
+                     SurfaceModel::Settings{r_.hausd, kMaxBulge * r_.hausd, r_.hmin, r_.hmax});
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
     resize();
     report_.before.lengths = length_statistics(mesh_);
   }
 
   void resize() {
-    set_wanted_sizes(
-        mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_,
-        {r_.hmin, r_.hmax, r_.hgrad});
+    set_wanted_sizes(mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_,
+                     {r_.hmin, r_.hmax, r_.hgrad});
   }
 
   void run_phase(const Phase& phase) {
@@ -92,7 +92,8 @@ class Run {
       if (phase.resize && round > 1) resize();
       if (phase.growth > 0)
         settings.most_tets = std::int64_t(phase.growth * double(mesh_.tets.size()) /
-                                          part_count(std::int64_t(mesh_.tets.size()))) + 10000;
+                                          part_count(std::int64_t(mesh_.tets.size()))) +
+                             10000;
       const RoundResult result = run_round(mesh_, *surface_, settings, &report_.part_of_tet);
       verdicts_ += result.cycle.verdicts;
       if (!result.cycle.full &&
@@ -102,13 +103,16 @@ class Run {
   }
 
   SurfaceDistance measure_distance() const {
-    return measure_surface_distance(mesh_, *surface_, default_sample_step(mesh_, *surface_), r_.hausd);
+    return measure_surface_distance(mesh_, *surface_, default_sample_step(mesh_, *surface_),
+                                    r_.hausd);
   }
 
   /// Makes the surface finer where it is too far from the model: what the curvature did not tell.
   void repair() {
     // The distance goes with the square of the size; a little more for good measure.
-    auto factor = [&](double distance) { return std::max(0.5, 0.9 * std::sqrt(r_.hausd / distance)); };
+    auto factor = [&](double distance) {
+      return std::max(0.5, 0.9 * std::sqrt(r_.hausd / distance));
+    };
     auto shrink = [&](const FarSample& f, const Anchor& anchor) {
       surface_->shrink_sizes(f.where, anchor, surface_->size(anchor), factor(f.distance));
     };
@@ -130,7 +134,8 @@ class Run {
       for (int v = 0; v < kVerdicts; ++v)
         if (const std::int64_t n = verdicts_.count[std::size_t(o)][std::size_t(v)])
           report_.verdicts.push_back({name(Operator(o)), name(Verdict(v)), n});
-    report_.hausd = r_.hausd, report_.hmin = r_.hmin, report_.hmax = r_.hmax, report_.hgrad = r_.hgrad;
+    report_.hausd = r_.hausd, report_.hmin = r_.hmin, report_.hmax = r_.hmax,
+    report_.hgrad = r_.hgrad;
     set_targets();
     report_.seconds = timer_.seconds();
     report_.tets_per_second = double(report_.after.counts.tets) / report_.seconds;
@@ -138,13 +143,16 @@ class Run {
   }
 
   void set_targets() {
-    auto place = [](const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); };
+    auto place = [](const Vec3& p) {
+      return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+    };
     const QualityStatistics& q = report_.after.quality;
     const LengthStatistics& l = report_.after.lengths;
     auto add = [&](const char* name, double wanted, double measured, bool met, const Vec3& at) {
       report_.targets.push_back({name, wanted, measured, met, met ? "" : place(at)});
     };
-    add("worst quality", options_.min_quality, q.worst, q.worst >= options_.min_quality, q.worst_place);
+    add("worst quality", options_.min_quality, q.worst, q.worst >= options_.min_quality,
+        q.worst_place);
     add("conforming lengths", options_.min_conform, l.conforming_percent(),
         l.conforming_percent() >= options_.min_conform, l.longest_place);
     const SurfaceDistance& d = distance_;

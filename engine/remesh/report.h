@@ -22,10 +22,10 @@ struct PhaseTime {
 
 /// A goal of the run, and whether it was met.
 struct Target {
-  std::string name;    ///< "worst quality", "conforming lengths", "surface distance"
+  std::string name;  ///< "worst quality", "conforming lengths", "surface distance"
   double wanted = 0, measured = 0;
   bool met = true;
-  std::string where;   ///< place of the worst offender, when missed
+  std::string where;  ///< place of the worst offender, when missed
 };
 
 struct MeshSummary {

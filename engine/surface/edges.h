@@ -5,8 +5,8 @@
 
 namespace cavea {
 
-/// One triangle's side of a surface edge: vertices a < b, and the triangle with the edge opposite its
-/// local vertex k. Sorted lists of these group the triangles of each edge.
+/// One triangle's side of a surface edge: vertices a < b, and the triangle with the edge opposite
+/// its local vertex k. Sorted lists of these group the triangles of each edge.
 struct EdgeSide {
   VertexId a, b;
   TriangleId triangle;

@@ -30,7 +30,8 @@ class Components {
 
 constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
 
-/// What meets at a vertex: its feature edges' other ends (the first two), their kinds, their number.
+/// What meets at a vertex: its feature edges' other ends (the first two), their kinds, their
+/// number.
 struct FeatureStar {
   std::array<VertexId, 2> ends{kNone, kNone};
   std::array<Tag, 2> kinds{};
@@ -46,7 +47,8 @@ struct FeatureStar {
 };
 
 Vec3 triangle_normal(const TetMesh& m, const Triangle& t) {
-  return normalized(cross(m.points[t.v[1]] - m.points[t.v[0]], m.points[t.v[2]] - m.points[t.v[0]]));
+  return normalized(
+      cross(m.points[t.v[1]] - m.points[t.v[0]], m.points[t.v[2]] - m.points[t.v[0]]));
 }
 
 Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end, double cos_ridge,
@@ -133,7 +135,8 @@ void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars, double angl
 int number_patches(TetMesh& m, const std::vector<EdgeSide>& sides) {
   Components patches(m.triangles.size());
   for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
-    if (end - begin != 2 || (m.triangles[begin->triangle].edge_tag[begin->k] & tag::kFeature)) return;
+    if (end - begin != 2 || (m.triangles[begin->triangle].edge_tag[begin->k] & tag::kFeature))
+      return;
     patches.join(begin[0].triangle, begin[1].triangle);
   });
   std::vector<std::int32_t> number(m.triangles.size(), kNone);

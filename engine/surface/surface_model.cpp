@@ -47,7 +47,8 @@ void SurfaceModel::for_each_start(const Anchor& anchor, int patch, F&& f) const 
 SurfaceModel::WalkResult SurfaceModel::walk(const Vec3& guess, std::int32_t start) const {
   auto on = [&](std::int32_t f) {
     const auto& k = facets_[f];
-    const ClosestOnTriangle c = closest_on_triangle(guess, points_[k[0]], points_[k[1]], points_[k[2]]);
+    const ClosestOnTriangle c =
+        closest_on_triangle(guess, points_[k[0]], points_[k[1]], points_[k[2]]);
     return WalkResult{f, c.u, c.v, c.distance2};
   };
   auto inside_patch = [&](std::int32_t f, int k) {
@@ -64,7 +65,8 @@ SurfaceModel::WalkResult SurfaceModel::walk(const Vec3& guess, std::int32_t star
     const double w = 1 - best.u - best.v;
     // On the edge opposite corner 0, u and v are rounded and so is w.
     constexpr double kOnEdge = 1e-15;
-    const bool at0 = w <= kOnEdge, at1 = best.u <= 0, at2 = best.v <= 0;  // on the edge opposite corner k
+    const bool at0 = w <= kOnEdge, at1 = best.u <= 0,
+               at2 = best.v <= 0;  // on the edge opposite corner k
     if (at0) consider(inside_patch(best.facet, 0));
     if (at1) consider(inside_patch(best.facet, 1));
     if (at2) consider(inside_patch(best.facet, 2));
@@ -78,7 +80,8 @@ SurfaceModel::WalkResult SurfaceModel::walk(const Vec3& guess, std::int32_t star
   return best;
 }
 
-SurfacePoint SurfaceModel::place(const Vec3& guess, int patch, std::span<const Anchor> hints) const {
+SurfacePoint SurfaceModel::place(const Vec3& guess, int patch,
+                                 std::span<const Anchor> hints) const {
   WalkResult best;
   best.distance2 = std::numeric_limits<double>::infinity();
   for (const Anchor& hint : hints)
@@ -134,8 +137,7 @@ SurfacePoint SurfaceModel::place_on_curve(const Vec3& guess, std::span<const Anc
     }
     const Vec3 x = curves_[best_edge].curve.at(best_t);
     const double d2 = distance2(x, guess);
-    if (d2 < result.distance2)
-      result = {x, {curve_anchor(best_edge), float(best_t), 0}, d2};
+    if (d2 < result.distance2) result = {x, {curve_anchor(best_edge), float(best_t), 0}, d2};
   };
   bool on_curve = false;
   for (const Anchor& hint : hints)
@@ -183,7 +185,8 @@ double SurfaceModel::size(const Anchor& anchor) const {
          anchor.v * sizes_[v[2]];
 }
 
-void SurfaceModel::shrink_sizes(const Vec3& place, const Anchor& anchor, double radius, double factor) {
+void SurfaceModel::shrink_sizes(const Vec3& place, const Anchor& anchor, double radius,
+                                double factor) {
   if (anchor.facet == kNone) return;
   const double radius2 = radius * radius;
   std::vector<std::int32_t> reached{

@@ -16,26 +16,26 @@ struct SurfacePoint {
   double distance2 = 0;  ///< from the guess, squared
 };
 
-/// The ideal surface: a read-only snapshot of the input's surface triangles with a cubic Bezier patch
-/// on each (paper, section 3.2) and a cubic curve on each feature edge. Read-only after construction,
-/// so any number of threads may ask it at once.
+/// The ideal surface: a read-only snapshot of the input's surface triangles with a cubic Bezier
+/// patch on each (paper, section 3.2) and a cubic curve on each feature edge. Read-only after
+/// construction, so any number of threads may ask it at once.
 ///
 /// Anchors of vertices: on a facet (facet >= 0, u and v), or on a feature curve
 /// (facet = curve_anchor(edge), u = the curve's parameter).
 class SurfaceModel {
  public:
   struct Settings {
-    double tolerance = 0;   ///< hausd
-    double max_bulge = 0;   ///< a control point is kept within this distance of the flat facet
+    double tolerance = 0;  ///< hausd
+    double max_bulge = 0;  ///< a control point is kept within this distance of the flat facet
     double hmin = 0, hmax = 0;
   };
 
-  /// Takes the snapshot of a classified mesh (classify_features) and sets the anchors of its surface
-  /// vertices.
+  /// Takes the snapshot of a classified mesh (classify_features) and sets the anchors of its
+  /// surface vertices.
   SurfaceModel(TetMesh& mesh, const Settings& settings);
 
-  /// The point of patch `patch` near `guess`, found by walking from the anchors in `hints`; walks stay
-  /// within the patch. distance2 is infinite when no hint touches the patch.
+  /// The point of patch `patch` near `guess`, found by walking from the anchors in `hints`; walks
+  /// stay within the patch. distance2 is infinite when no hint touches the patch.
   SurfacePoint place(const Vec3& guess, int patch, std::span<const Anchor> hints) const;
 
   /// The point near `guess` on the feature curve that the anchors lie on, or that starts at one of
@@ -59,8 +59,8 @@ class SurfaceModel {
     return {points_[facets_[f][0]], points_[facets_[f][1]], points_[facets_[f][2]]};
   }
 
-  /// Reduces by a factor (never below hmin) the wanted sizes within `radius` of a place, on the facets
-  /// reached from the anchor over facets that are as near; not while others read.
+  /// Reduces by a factor (never below hmin) the wanted sizes within `radius` of a place, on the
+  /// facets reached from the anchor over facets that are as near; not while others read.
   void shrink_sizes(const Vec3& place, const Anchor& anchor, double radius, double factor);
 
   static std::int32_t curve_anchor(std::int32_t edge) { return -2 - edge; }
@@ -69,7 +69,8 @@ class SurfaceModel {
  private:
   struct CurveEdge {
     std::array<std::int32_t, 2> v{kNone, kNone};
-    std::array<std::int32_t, 2> next{kNone, kNone};  ///< the curve's edge beyond each end; none at corners
+    std::array<std::int32_t, 2> next{kNone,
+                                     kNone};  ///< the curve's edge beyond each end; none at corners
     BezierCurve curve;
     std::int32_t first_facet = 0, facet_count = 0;  ///< in curve_facets_
   };
@@ -105,20 +106,22 @@ class SurfaceModel {
   std::vector<int> facet_patch_;
   /// Facet across the edge opposite corner k; none across ridges and non-manifold edges.
   std::vector<std::array<std::int32_t, 3>> smooth_neighbors_;
-  std::vector<std::array<std::int32_t, 3>> facet_curve_;  ///< feature edge opposite corner k, or none
-  std::vector<std::array<Vec3, 3>> normals_;              ///< at the corners of each facet
+  std::vector<std::array<std::int32_t, 3>>
+      facet_curve_;                           ///< feature edge opposite corner k, or none
+  std::vector<std::array<Vec3, 3>> normals_;  ///< at the corners of each facet
   std::vector<BezierTriangle> patches_;
   std::vector<CurveEdge> curves_;
   std::vector<std::int32_t> curve_facets_;
-  std::vector<std::int32_t> vertex_curve_;   ///< a curve edge at each vertex, or none
+  std::vector<std::int32_t> vertex_curve_;  ///< a curve edge at each vertex, or none
   std::vector<char> vertex_corner_;
-  std::vector<std::int32_t> vertex_first_;   ///< CSR vertex -> facets
+  std::vector<std::int32_t> vertex_first_;  ///< CSR vertex -> facets
   std::vector<std::int32_t> vertex_facets_;
   std::vector<double> sizes_;
   std::vector<std::int32_t> snapshot_vertex_;  ///< of the mesh's vertices, during construction only
 };
 
-/// Calls f(facet) for the facets around a corner that are reached from `facet` through smooth edges.
+/// Calls f(facet) for the facets around a corner that are reached from `facet` through smooth
+/// edges.
 template <class F>
 void SurfaceModel::for_fan(std::int32_t facet, int corner, bool across_references, F&& f) const {
   const std::int32_t v = facets_[facet][corner];

@@ -109,8 +109,8 @@ void SurfaceModel::set_normals() {
   });
 }
 
-/// Curves: at a vertex where the curve goes on, the tangent of the circle through the neighbours; at a
-/// corner, the chord. The control points are a third of the chord's length along the tangents.
+/// Curves: at a vertex where the curve goes on, the tangent of the circle through the neighbours;
+/// at a corner, the chord. The control points are a third of the chord's length along the tangents.
 void SurfaceModel::set_tangents() {
   auto tangent = [&](std::int32_t e, int end) {
     const CurveEdge& c = curves_[e];
@@ -139,9 +139,9 @@ Vec3 SurfaceModel::clamp_to_chord(const Vec3& control, const Vec3& chord_point) 
   return length <= settings_.max_bulge ? control : chord_point + (settings_.max_bulge / length) * d;
 }
 
-/// The two control points of the edge opposite corner k of a facet, from corner k+1 to k+2: those of
-/// the curve on feature edges, else on the tangent planes at the ends (paper, section 3.2.2, with
-/// |b1 - b0| a third of the edge).
+/// The two control points of the edge opposite corner k of a facet, from corner k+1 to k+2: those
+/// of the curve on feature edges, else on the tangent planes at the ends (paper, section 3.2.2,
+/// with |b1 - b0| a third of the edge).
 std::array<Vec3, 2> SurfaceModel::edge_controls(std::int32_t f, int k) const {
   const int i = (k + 1) % 3, j = (k + 2) % 3;
   if (const std::int32_t e = facet_curve_[f][k]; e != kNone) {
@@ -222,7 +222,9 @@ void SurfaceModel::set_sizes() {
       double kappa = 0;
       for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i) {
         const std::int32_t f = vertex_facets_[i];
-        const int corner = facets_[f][0] == std::int32_t(v) ? 0 : facets_[f][1] == std::int32_t(v) ? 1 : 2;
+        const int corner = facets_[f][0] == std::int32_t(v)   ? 0
+                           : facets_[f][1] == std::int32_t(v) ? 1
+                                                              : 2;
         kappa = std::max(kappa, curvature_of_fan(f, corner, seen));
         if (vertex_curve_[v] == kNone) break;  // a single fan: all its facets give the same
       }
