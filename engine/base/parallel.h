@@ -13,44 +13,9 @@
 #include <optional>
 #include <vector>
 
-#ifdef __SANITIZE_THREAD__
-#include <sanitizer/tsan_interface.h>
-#endif
+#include "cavea/base/fork_join.h"
 
 namespace cavea {
-
-/// One fork into tasks and their join, as the thread sanitizer is to see it: what came before the
-/// fork happens before each task, and each task before what comes after the join; the tasks are not
-/// ordered among themselves. oneTBB orders them so, but inside a library that is not built for the
-/// sanitizer. Nothing at all in other builds.
-class ForkJoin {
- public:
-#ifdef __SANITIZE_THREAD__
-  ForkJoin() { __tsan_release(&fork_); }
-  ~ForkJoin() { __tsan_acquire(&join_); }
-  class Task {
-   public:
-    explicit Task(ForkJoin& of) : of_(of) { __tsan_acquire(&of_.fork_); }
-    ~Task() { __tsan_release(&of_.join_); }
-    Task(const Task&) = delete;
-    Task& operator=(const Task&) = delete;
-
-   private:
-    ForkJoin& of_;
-  };
-
- private:
-  char fork_ = 0, join_ = 0;
-#else
-  ForkJoin() {}
-  struct Task {
-    explicit Task(ForkJoin&) {}
-  };
-#endif
- public:
-  ForkJoin(const ForkJoin&) = delete;
-  ForkJoin& operator=(const ForkJoin&) = delete;
-};
 
 /// Number of threads to use when the caller does not say.
 int default_threads();
@@ -79,13 +44,8 @@ template <class F, class Partitioner = tbb::auto_partitioner>
 void parallel_ranges(std::size_t n, std::size_t grain, F&& f, const Partitioner& partitioner = {}) {
   if (n == 0) return;
   ForkJoin fork;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, n, std::max<std::size_t>(grain, 1)),
-      [&](const tbb::blocked_range<std::size_t>& r) {
-        const ForkJoin::Task task(fork);
-        f(r.begin(), r.end());
-      },
-      partitioner);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, std::max<std::size_t>(grain, 1)),
+                    fork.body(f), partitioner);
 }
 
 /// Calls f(i) for each i in [0, n).
