@@ -122,6 +122,7 @@ std::int64_t split_pass(PartState& s) {
   return for_each_task(s, tasks, [&](const EdgeTask& task) {
     if (s.editor.living_tets() >= s.settings.most_tets) {
       s.result.full = true;
+      s.mesh().tet_flags[task.tet] |= tet_flag::kAskLater;
       return false;
     }
     const Verdict v = edge_split(s.context, s.editor.next_vertex(), s.cavity);

@@ -89,7 +89,10 @@ class Run {
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= phase.ask;
     for (int round = 1; round <= phase.rounds; ++round) {
       tell(phase.name, round);
-      if (phase.resize && round > 1) resize();
+      if (phase.resize && round > 1 && !r_.uniform()) {
+        resize();
+        for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskLength;
+      }
       if (phase.growth > 0)
         settings.most_tets = std::int64_t(phase.growth * double(mesh_.tets.size()) /
                                           part_count(std::int64_t(mesh_.tets.size()))) +
