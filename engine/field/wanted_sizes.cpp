@@ -13,6 +13,21 @@
 
 namespace cavea {
 
+SizeRange wished_range(const TetMesh& mesh, const SizeField& field) {
+  if (!field) return {};
+  return parallel_reduce(
+      mesh.points.size(), SizeRange{},
+      [&](std::size_t begin, std::size_t end) {
+        SizeRange range;
+        for (std::size_t v = begin; v < end; ++v)
+          if (const double size = field(mesh.points[v]); size > 0) range.add(size);
+        return range;
+      },
+      [](SizeRange a, const SizeRange& b) {
+        return SizeRange{std::min(a.smallest, b.smallest), std::max(a.largest, b.largest)};
+      });
+}
+
 void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>& curvature_size,
                       const SizeField& field, const SizeBounds& bounds) {
   VertexId senseless = std::numeric_limits<VertexId>::max();  // the smallest one is told

@@ -1,4 +1,7 @@
 #pragma once
+#include <algorithm>
+#include <limits>
+
 #include "cavea/field/size_field.h"
 #include "cavea/mesh/tet_mesh.h"
 
@@ -7,6 +10,19 @@ namespace cavea {
 struct SizeBounds {
   double hmin = 0, hmax = 0, hgrad = 1;
 };
+
+/// The smallest and largest of some sizes; empty (smallest > largest) at first.
+struct SizeRange {
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+
+  void add(double size) {
+    smallest = std::min(smallest, size);
+    largest = std::max(largest, size);
+  }
+};
+
+/// What the user's field asks for at the vertices; what is not positive is passed over.
+SizeRange wished_range(const TetMesh& mesh, const SizeField& field);
 
 /// Sets mesh.sizes (paper, section 4.2): the smaller of `curvature_size` (of surface vertices, by
 /// anchor) and the user's field, then the bounds, then the gradation. \pre no holes

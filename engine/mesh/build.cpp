@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "cavea/base/error.h"
@@ -82,6 +83,20 @@ VertexId repeated_vertex(const std::array<std::int32_t, 4>& tet) {
   return kNone;
 }
 
+/// Sizes are kept as floats.
+void check_sizes(const MeshData& data) {
+  const std::size_t n = data.sizes.size();
+  if (n != 0 && n != data.vertices.size())
+    throw InputError(fmt::format("{} sizes for {} vertices", n, data.vertices.size()));
+  const std::size_t bad = first_bad(n, [&](std::size_t v) {
+    const float size = float(data.sizes[v]);
+    return !(size > 0 && std::isfinite(size));
+  });
+  if (bad < n)
+    throw InputError(fmt::format("the size of vertex {} is {}; it must be positive, as a float too",
+                                 bad + 1, data.sizes[bad]));
+}
+
 void check_tets(const MeshData& data) {
   const std::size_t n = data.tets.size();
   if (n == 0) throw InputError("no tets");
@@ -121,6 +136,7 @@ std::vector<VertexId> take_vertices(const MeshData& data, TetMesh& mesh) {
     if (ids.new_id[v] == kNone) return;
     mesh.points[ids.new_id[v]] = data.vertices[v];
     if (!data.vertex_refs.empty()) mesh.vertex_refs[ids.new_id[v]] = data.vertex_refs[v];
+    if (!data.sizes.empty()) mesh.sizes[ids.new_id[v]] = float(data.sizes[v]);
   });
   return ids.new_id;
 }
@@ -251,6 +267,7 @@ BuildResult build(const MeshData& data) {
   check_lists(data);
   check_tets(data);
   check_coordinates(data);
+  check_sizes(data);
 
   BuildResult out;
   TetMesh& mesh = out.mesh;

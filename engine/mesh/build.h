@@ -25,9 +25,10 @@ struct BuildResult {
 
 /// Makes a mesh out of lists: adjacency, surface triangles (the exterior boundary and the faces
 /// between references; the missing ones are made), their edges' tags and references, required
-/// entities and corners. Vertices keep their order; unused ones are dropped.
+/// entities and corners, sizes. Vertices keep their order; unused ones are dropped.
 /// \throw InputError naming the entity: no tets, repeated vertex in a tet, coordinates not finite,
-/// a face in three tets, two tets on the same side of a face, more tets than 32-bit ids can hold.
+/// a face in three tets, two tets on the same side of a face, more tets than 32-bit ids can hold,
+/// sizes that are no positive floats or not one a vertex.
 BuildResult build(const MeshData& data);
 
 /// Links all faces of mesh.tets to each other: sets links, vertex_tets and qualities; faces that no

@@ -33,7 +33,7 @@ struct MeshData {
   std::vector<Vec3> tangents;
   std::vector<std::array<std::int32_t, 2>> tangent_at_vertices;  ///< (vertex, index into tangents)
 
-  std::vector<double> sizes;  ///< wanted size at each vertex, or empty; written beside the mesh
+  std::vector<double> sizes;  ///< wanted size at each vertex, or empty; a file of its own
   /// Per-tet part of the parallel run that made it, or empty; for display.
   std::vector<std::int32_t> parts;
 };

@@ -39,7 +39,7 @@ void validate(const Options& o) {
     throw OptionError(fmt::format("threads must be at least 1, not {}", o.threads));
 }
 
-ResolvedOptions resolve(const Options& o, double box_diagonal) {
+ResolvedOptions resolve(const Options& o, double box_diagonal, const SizeRange& wished) {
   // Shares of the box diagonal, so that defaults need no knowledge of the mesh's scale.
   constexpr double kHausd = 0.001, kHmin = 0.001, kHmax = 0.1;
   ResolvedOptions r;
@@ -49,8 +49,10 @@ ResolvedOptions resolve(const Options& o, double box_diagonal) {
     r.hmin = r.hmax = *o.hsiz;
     return r;
   }
-  r.hmax = o.hmax.value_or(std::max(kHmax * box_diagonal, o.hmin.value_or(0)));
-  r.hmin = o.hmin.value_or(std::min(kHmin * box_diagonal, r.hmax));
+  // No edge is longer than the diagonal, whatever a field says where it means "any".
+  const double largest = std::min(wished.largest, box_diagonal);
+  r.hmax = o.hmax.value_or(std::max({kHmax * box_diagonal, largest, o.hmin.value_or(0)}));
+  r.hmin = o.hmin.value_or(std::min({kHmin * box_diagonal, wished.smallest, r.hmax}));
   return r;
 }
 

@@ -18,8 +18,9 @@ struct Progress {
 /// bounding box (see resolve()).
 struct Options {
   std::optional<double> hausd;  ///< distance to the ideal surface; default 0.001 box diagonals
-  std::optional<double> hmin;   ///< shortest wanted edge; default 0.001 box diagonals
-  std::optional<double> hmax;   ///< longest wanted edge; default 0.1 box diagonals
+  /// Shortest and longest wanted edge; by default 0.001 and 0.1 box diagonals, or the smallest and
+  /// largest size that the user's field asks for at the vertices, if that is beyond.
+  std::optional<double> hmin, hmax;
   std::optional<double> hsiz;   ///< one size everywhere; excludes hmin and hmax
   double hgrad = 1.3;           ///< largest ratio of adjacent edges (paper, equation (1)); >= 1
   double angle = 45;            ///< degrees between normals above which an edge is a ridge

@@ -34,7 +34,7 @@ class Run {
   Run(const TetMesh& input, const SizeField& field, const Options& options)
       : mesh_(input), field_(field), options_(options) {
     compact(mesh_);
-    r_ = resolve(options, box_diagonal(mesh_));
+    r_ = resolve(options, box_diagonal(mesh_), wished_range(mesh_, field));
   }
 
   void operator()() {

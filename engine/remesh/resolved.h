@@ -1,4 +1,5 @@
 #pragma once
+#include "cavea/field/wanted_sizes.h"
 #include "cavea/remesh/options.h"
 
 namespace cavea {
@@ -9,7 +10,9 @@ struct ResolvedOptions {
   bool uniform() const { return hmin == hmax; }
 };
 
+/// \param wished the sizes that the user's field asks for, between which a bound that is not set
+/// does not come; empty if there is no field
 /// \pre validate(options) passed; box_diagonal > 0
-ResolvedOptions resolve(const Options& options, double box_diagonal);
+ResolvedOptions resolve(const Options& options, double box_diagonal, const SizeRange& wished = {});
 
 }  // namespace cavea

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cavea/base/ids.h"
-#include "cavea/surface/box_tree.h"
+#include "cavea/geometry/box_tree.h"
 
 namespace cavea {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cavea/base/ids.h"
-#include "cavea/surface/box_tree.h"
+#include "cavea/geometry/box_tree.h"
 #include "cavea/surface/surface_model.h"
 
 namespace cavea {

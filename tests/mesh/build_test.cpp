@@ -101,6 +101,7 @@ TEST(Build, DropsUnusedVertices) {
   data.vertex_refs = {10, 11, 12, 13, 14, 15};
   for (auto& tet : data.tets)
     for (auto& v : tet) v += v >= 1;
+  data.sizes = {0.5, 9, 1, 1.5, 2, 2.5};
   data.corners = {1, 2};
   data.triangles = {{0, 1, 2}};
   data.triangle_refs = {8};
@@ -111,6 +112,7 @@ TEST(Build, DropsUnusedVertices) {
   EXPECT_EQ(r.summary.dropped_triangles, 1);
   EXPECT_EQ(r.summary.dropped_edges, 1);
   EXPECT_EQ(r.mesh.vertex_refs, (std::vector<std::int32_t>{10, 12, 13, 14, 15}));
+  EXPECT_EQ(r.mesh.sizes, (std::vector<float>{0.5, 1, 1.5, 2, 2.5}));
   EXPECT_EQ(r.mesh.vertex_tags[1], tag::kSurface | tag::kCorner);
   EXPECT_EQ(r.mesh.vertex_tags[2], tag::kSurface);
   EXPECT_EQ(check(r.mesh).message(), "sound");
@@ -172,6 +174,18 @@ TEST(BuildErrors, Coordinates) {
       EXPECT_NE(text.find(x == -1e101 ? "too large" : "not finite"), std::string::npos) << text;
     }
   }
+}
+
+TEST(BuildErrors, Sizes) {
+  for (const double size : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e300, 1e-300}) {
+    MeshData data = test::two_tets();
+    data.sizes = {1, 1, size, 1, 1};
+    const std::string text = build_error(data);
+    EXPECT_EQ(text.find("the size of vertex 3 is "), 0u) << text;
+  }
+  MeshData data = test::two_tets();
+  data.sizes = {1, 1};
+  EXPECT_EQ(build_error(data), "2 sizes for 5 vertices");
 }
 
 TEST(BuildErrors, FaceInThreeTets) {

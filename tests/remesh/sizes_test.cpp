@@ -1,7 +1,9 @@
 // The sizes that are asked for are the sizes that come out, at any scale and place.
 #include <cmath>
+#include <functional>
 
 #include "cavea/base/error.h"
+#include "cavea/field/mesh_size_field.h"
 #include "remesh/support.h"
 
 namespace cavea::test {
@@ -41,9 +43,62 @@ double mean_length_near(const TetMesh& mesh, const Vec3& center, double radius) 
 
 TEST(Sizes, AreLengthsInSpace) {
   TetMesh mesh = built(kuhn_cube(5));
-  remesh(mesh, graded, {});
+  Options options;
+  options.hmax = 0.1 * std::sqrt(3);
+  remesh(mesh, graded, options);
   EXPECT_NEAR(mean_length_near(mesh, {0, 0, 0}, 0.15), 0.056, 0.015);
   EXPECT_NEAR(mean_length_near(mesh, {1, 1, 1}, 0.5), 0.173, 0.04);
+}
+
+/// Fine at a sphere, and so steep that a blurred map would show.
+double at_sphere(const Vec3& p) {
+  return std::clamp(0.03 + 0.2 * std::abs(distance(p, {0.5, 0.5, 0.5}) - 0.3), 0.03, 0.15);
+}
+
+/// Percent of the edges that conform to a map, evaluated at their ends.
+template <class Map>
+double conforming_percent(TetMesh mesh, Map&& map) {
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) mesh.sizes[v] = float(map(mesh.points[v]));
+  return length_statistics(mesh).conforming_percent();
+}
+
+TEST(Sizes, FollowAMapGivenAtTheVerticesOfTheInput) {
+  MeshData data = kuhn_cube(16);
+  for (const Vec3& p : data.vertices) data.sizes.push_back(at_sphere(p));
+  const TetMesh start = built(data);
+  const MeshSizeField map(start);
+  std::vector<TetMesh> results;
+  for (const int threads : {1, 3}) {
+    Options options;
+    options.threads = threads;
+    TetMesh& mesh = results.emplace_back(start);
+    const Report report = remesh(mesh, std::cref(map), options);
+    expect_sound(mesh);
+    expect_good(report, {.worst = 0.3, .conform = 95});
+  }
+  EXPECT_GE(conforming_percent(results[0], at_sphere), 95);
+  expect_same(results[0], results[1]);
+}
+
+TEST(Sizes, AreNotOverruledByBoundsThatAreNotSet) {
+  TetMesh mesh = built(kuhn_cube(4));
+  const double finer = 0.0005, coarser = 0.4;
+  const auto size = [&](const Vec3& p) { return finer + (coarser - finer) * norm(p); };
+  Options options;
+  options.hgrad = 2;
+  const Report report = remesh(mesh, size, options);
+  expect_sound(mesh);
+  EXPECT_DOUBLE_EQ(report.hmin, finer);
+  EXPECT_NEAR(report.hmax, size({1, 1, 1}), 1e-12);
+  EXPECT_LT(*std::min_element(mesh.sizes.begin(), mesh.sizes.end()), 0.001);
+  EXPECT_GT(*std::max_element(mesh.sizes.begin(), mesh.sizes.end()), 0.3);
+}
+
+TEST(Sizes, OfAnyLengthDoNotExceedTheDiagonal) {
+  TetMesh mesh = built(kuhn_cube(2));
+  const Report report = remesh(mesh, [](const Vec3&) { return 1e300; }, {});
+  expect_sound(mesh);
+  EXPECT_EQ(report.hmax, report.before.counts.box_diagonal());
 }
 
 TEST(Sizes, StayWithinTheBounds) {

@@ -121,6 +121,21 @@ TEST_F(RunTest, HistogramsOfTheReportAddUp) {
   EXPECT_EQ(sum(lengths["histogram"]), lengths["edges"]);
 }
 
+TEST_F(RunTest, TakesItsSizesFromAFile) {
+  write_text(file("in.mesh"), cube_text());
+  write_text(file("in.sol"),
+             "MeshVersionFormatted 2 Dimension 3 SolAtVertices 8 1 1\n"
+             "0.2 0.2 0.2 0.2 0.2 0.2 0.2 0.2 End");
+  const Outcome outcome =
+      cavea({"remesh", "in.mesh", "--sol", "in.sol", "-o", "out.mesh", "--report", "report.json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const Json report = read_json("report.json");
+  EXPECT_EQ(report["options"]["sol"], "in.sol");
+  EXPECT_NEAR(report["options"]["hmax"].get<double>(), 0.2, 1e-7);
+  EXPECT_GT(report["after"]["counts"]["tets"], 500);
+  EXPECT_LT(report["after"]["counts"]["tets"], 2000);
+}
+
 TEST_F(RunTest, OverwritesAnOlderOutput) {
   write_text(file("out.mesh"), "old");
   ASSERT_EQ(cavea({"remesh", kSample, "-o", "out.mesh"}).status, 0);

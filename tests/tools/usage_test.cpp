@@ -119,6 +119,38 @@ TEST_F(UsageTest, RefusesPlacesThatCannotBeWritten) {
   expect_option_refused({"--report", "/dev/null"}, "/dev/null");
 }
 
+/// A file of sizes for the cube's eight vertices, of one field of this type.
+std::string sizes_text(const std::string& type, const std::string& sizes) {
+  return "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n8\n1 " + type + "\n" + sizes +
+         "\nEnd\n";
+}
+
+TEST_F(UsageTest, RefusesSizesThatAreNone) {
+  const auto expect = [&](const std::string& text, const std::string& named) {
+    write_text(file("bad.sol"), text);
+    expect_option_refused({"--sol", "bad.sol"}, named);
+  };
+  expect(sizes_text("3", "1 0 1 0 0 1"), "tensors");
+  expect(sizes_text("2", "1 0 1"), "vectors");
+  expect(sizes_text("1", "1 1 1 1 1 1 1"), "bad.sol");
+  expect(sizes_text("1", "1 1 1 1 1 1 1 1 1"), "bad.sol");
+  expect(sizes_text("1", "1 1 nan 1 1 1 1 1"), "vertex 3");
+  expect(sizes_text("1", "1 1 1 0 1 1 1 1"), "vertex 4");
+  expect(sizes_text("1", "1 1 1 1 -1 1 1 1"), "vertex 5");
+  expect(sizes_text("1", "1 1 1 1 1 1e-300 1 1"), "vertex 6");
+  expect_option_refused({"--sol", "missing.sol"}, "missing.sol");
+  expect_option_refused({"--sol", "in.mesh"}, "in.mesh");
+  expect_option_refused({"--sol", ""}, "--sol");
+}
+
+TEST_F(UsageTest, RefusesSizesBesideOneSizeAndUnderAnOutput) {
+  write_text(file("in.sol"), sizes_text("1", "1 1 1 1 1 1 1 1"));
+  write_text(file("out.sol"), sizes_text("1", "1 1 1 1 1 1 1 1"));
+  expect_option_refused({"--sol", "in.sol", "--hsiz", "0.2"}, "--hsiz");
+  expect_option_refused({"--sol", "out.sol"}, "out.sol");
+  expect_option_refused({"--sol", "in.sol", "--report", "in.sol"}, "--sol");
+}
+
 TEST_F(UsageTest, RefusesInputsThatAreNoMesh) {
   write_text(file("empty.mesh"), "");
   write_text(file("cut.mesh"), cube_text().substr(0, 150));

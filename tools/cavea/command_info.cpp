@@ -109,11 +109,11 @@ CLI::App* add_info_command(CLI::App& app, InfoArguments& arguments) {
 
 int run_info(const InfoArguments& arguments) {
   if (!arguments.json.empty())
-    check_outputs({"the input", arguments.file}, {{"--json", arguments.json}});
+    check_outputs({{"the input", arguments.file}}, {{"--json", arguments.json}});
   std::vector<std::string> warnings;
-  const MeshData data = read_mesh(arguments.file, &warnings);
+  MeshData data = read_mesh(arguments.file, &warnings);
   try {
-    return report_mesh(arguments, measure(arguments.file, data, std::move(warnings)));
+    return report_mesh(arguments, measure(arguments.file, std::move(data), std::move(warnings)));
   } catch (const InputError& e) {
     return report_no_mesh(arguments, e.what());
   }

@@ -2,10 +2,12 @@
 
 #include <cstdio>
 #include <functional>
+#include <memory>
 
 #include "cavea/base/error.h"
 #include "cavea/base/memory.h"
 #include "cavea/base/timer.h"
+#include "cavea/field/mesh_size_field.h"
 #include "cavea/remesh/remesh.h"
 #include "exit_status.h"
 #include "interrupt.h"
@@ -25,15 +27,23 @@ void check_names(const RemeshArguments& arguments) {
   for (const std::string& name : arguments.outputs)
     for (NamedFile& file : files_of_mesh(name)) outputs.push_back(std::move(file));
   if (!arguments.report.empty()) outputs.push_back({"--report", arguments.report});
-  check_outputs({"the input", arguments.input}, outputs);
+  std::vector<NamedFile> inputs = {{"the input", arguments.input}};
+  if (!arguments.sizes.empty()) inputs.push_back({"the file of --sol", arguments.sizes});
+  check_outputs(inputs, outputs);
+}
+
+/// The sizes that were read with the mesh, as the field that the library asks.
+SizeField field_of(const RemeshArguments& arguments, const TetMesh& mesh) {
+  if (arguments.sizes.empty()) return {};
+  return [map = std::make_shared<MeshSizeField>(mesh)](const Vec3& p) { return (*map)(p); };
 }
 
 /// Runs the library with a progress line, which is gone when this returns.
-Report run_library(TetMesh& mesh, Options options, bool quiet) {
-  if (quiet) return remesh(mesh, {}, options);
+Report run_library(TetMesh& mesh, const SizeField& field, Options options, bool quiet) {
+  if (quiet) return remesh(mesh, field, options);
   ProgressPrinter printer;
   options.progress = [&printer](const Progress& p) { printer.show(p); };
-  return remesh(mesh, {}, options);
+  return remesh(mesh, field, options);
 }
 
 /// Writes all files of a run, the report last: it tells what the writing took.
@@ -52,10 +62,11 @@ std::vector<std::filesystem::path> write_all(const MeshData& data, RunReport& ru
 RunReport remesh_file(const RemeshArguments& arguments, Options options,
                       const Interrupt& interrupt) {
   Timer timer;
-  LoadedMesh loaded = load_mesh(arguments.input);
+  LoadedMesh loaded = load_mesh(arguments.input, arguments.sizes);
   const double read_seconds = timer.seconds();
   options.cancel = interrupt.flag();
-  RunReport run{arguments, run_library(loaded.mesh, options, arguments.quiet), read_seconds};
+  const SizeField field = field_of(arguments, loaded.mesh);
+  RunReport run{arguments, run_library(loaded.mesh, field, options, arguments.quiet), read_seconds};
   std::vector<std::string>& warnings = run.report.warnings;
   warnings.insert(warnings.begin(), loaded.warnings.begin(), loaded.warnings.end());
 

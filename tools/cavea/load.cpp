@@ -13,9 +13,10 @@ LoadedMesh build_loaded(const MeshData& data, std::vector<std::string> warnings)
   return {std::move(built.mesh), built.summary, std::move(warnings)};
 }
 
-LoadedMesh load_mesh(const std::filesystem::path& file) {
+LoadedMesh load_mesh(const std::filesystem::path& file, const std::filesystem::path& sizes) {
   std::vector<std::string> warnings;
-  const MeshData data = read_mesh(file, &warnings);
+  MeshData data = read_mesh(file, &warnings);
+  if (!sizes.empty()) data.sizes = read_sizes(sizes, data.vertices.size());
   try {
     return build_loaded(data, std::move(warnings));
   } catch (const InputError& e) {

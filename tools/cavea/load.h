@@ -17,8 +17,9 @@ struct LoadedMesh {
 /// Builds the mesh and adds what build() put right to the warnings. \throw InputError
 LoadedMesh build_loaded(const MeshData& data, std::vector<std::string> warnings);
 
-/// Reads and builds. \throw InputError
-LoadedMesh load_mesh(const std::filesystem::path& file);
+/// Reads and builds; with the sizes at the vertices in the file `sizes`, unless its name is empty.
+/// \throw InputError
+LoadedMesh load_mesh(const std::filesystem::path& file, const std::filesystem::path& sizes);
 
 /// A line on standard error for each.
 void print_warnings(const std::vector<std::string>& warnings);

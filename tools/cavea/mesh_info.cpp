@@ -35,31 +35,22 @@ std::vector<std::string> find_violations(const LoadedMesh& loaded) {
   return found;
 }
 
-/// The sizes beside the file, if there are any and they can be used, for the vertices that build()
-/// keeps: those of some tet, in their order.
-void take_sizes(const fs::path& mesh_file, const MeshData& data, LoadedMesh& loaded) {
+/// The sizes beside the file, if there are any and they can be used.
+void take_sizes(const fs::path& mesh_file, MeshData& data, std::vector<std::string>& warnings) {
   const fs::path file = sizes_beside(mesh_file);
   if (file.empty() || !fs::exists(file)) return;
-  std::vector<double> sizes;
   try {
-    sizes = read_sizes(file, data.vertices.size());
+    data.sizes = read_sizes(file, data.vertices.size());
   } catch (const InputError& e) {
-    loaded.warnings.push_back(fmt::format("the sizes are not used: {}", e.what()));
-    return;
+    warnings.push_back(fmt::format("the sizes are not used: {}", e.what()));
   }
-  std::vector<bool> used(data.vertices.size());
-  for (const auto& tet : data.tets)
-    for (const auto v : tet) used[v] = true;
-  std::size_t kept = 0;
-  for (std::size_t v = 0; v < used.size(); ++v)
-    if (used[v]) loaded.mesh.sizes[kept++] = static_cast<float>(sizes[v]);
 }
 
 }  // namespace
 
-Info measure(const fs::path& file, const MeshData& data, std::vector<std::string> warnings) {
+Info measure(const fs::path& file, MeshData data, std::vector<std::string> warnings) {
+  take_sizes(file, data, warnings);
   LoadedMesh loaded = build_loaded(data, std::move(warnings));
-  take_sizes(file, data, loaded);
   TetMesh& mesh = loaded.mesh;
   Info info;
   info.warnings = loaded.warnings;

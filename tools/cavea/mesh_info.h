@@ -20,7 +20,6 @@ struct Info {
 
 /// Measures lists that were read from `file`, with the sizes beside it if there are any.
 /// \throw InputError if they are no mesh
-Info measure(const std::filesystem::path& file, const MeshData& data,
-             std::vector<std::string> warnings);
+Info measure(const std::filesystem::path& file, MeshData data, std::vector<std::string> warnings);
 
 }  // namespace cavea::program

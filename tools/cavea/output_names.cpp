@@ -34,13 +34,14 @@ void check_place(const NamedFile& file) {
 
 }  // namespace
 
-void check_outputs(const NamedFile& input, const std::vector<NamedFile>& outputs) {
+void check_outputs(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const NamedFile& file = outputs[i];
     if (file.path.filename().empty())
       throw OptionError(fmt::format("{} '{}' names no file", file.role, file.path.string()));
-    if (same_file(file.path, input.path))
-      throw OptionError(fmt::format("{} {} is {}", file.role, file.path.string(), input.role));
+    for (const NamedFile& input : inputs)
+      if (same_file(file.path, input.path))
+        throw OptionError(fmt::format("{} {} is {}", file.role, file.path.string(), input.role));
     for (std::size_t j = 0; j < i; ++j)
       if (same_file(file.path, outputs[j].path))
         throw OptionError(fmt::format("{} {} and {} {} are the same file", outputs[j].role,

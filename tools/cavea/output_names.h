@@ -11,10 +11,10 @@ struct NamedFile {
   std::filesystem::path path;
 };
 
-/// Refuses, before any work, a run that could not end well: an output that is the input or another
+/// Refuses, before any work, a run that could not end well: an output that is an input or another
 /// output under whatever name (links, symbolic links, ./), one that exists and is no regular file,
 /// one in a directory that is missing or not writable. \throw OptionError naming the file.
-void check_outputs(const NamedFile& input, const std::vector<NamedFile>& outputs);
+void check_outputs(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
 /// Where the sizes at the vertices of a mesh file are; empty if its format has no such file.
 std::filesystem::path sizes_beside(const std::filesystem::path& mesh);

@@ -10,12 +10,17 @@
 namespace cavea::program {
 namespace {
 
-void add_size_flags(CLI::App& command, Options& options) {
+void add_size_flags(CLI::App& command, RemeshArguments& arguments) {
+  Options& options = arguments.options;
   command.add_option("--hausd", options.hausd,
                      "Largest distance to the ideal surface [0.001 of the box diagonal]");
   command.add_option("--hmin", options.hmin, "Shortest wanted edge [0.001 of the box diagonal]");
   command.add_option("--hmax", options.hmax, "Longest wanted edge [0.1 of the box diagonal]");
-  command.add_option("--hsiz", options.hsiz, "One edge length everywhere");
+  CLI::Option* uniform = command.add_option("--hsiz", options.hsiz, "One edge length everywhere");
+  command
+      .add_option("--sol", arguments.sizes,
+                  "Wanted edge lengths at the vertices of IN (.sol, .solb)")
+      ->excludes(uniform);
   command.add_option("--hgrad", options.hgrad, "Largest ratio of adjacent edge lengths")
       ->capture_default_str();
 }
@@ -58,7 +63,7 @@ CLI::App* add_remesh_command(CLI::App& app, RemeshArguments& arguments) {
   CLI::App* command = app.add_subcommand("remesh", "Remesh a tetrahedral mesh");
   command->add_option("IN", arguments.input, "Mesh to read")->required();
   add_output_flags(*command, arguments);
-  add_size_flags(*command, arguments.options);
+  add_size_flags(*command, arguments);
   add_angle_flags(*command, arguments);
   add_target_flags(*command, arguments.options);
   command->add_option("--threads", arguments.threads, "Number of threads [all cores]");

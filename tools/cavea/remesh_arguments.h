@@ -13,6 +13,7 @@ namespace cavea::program {
 struct RemeshArguments {
   std::string input;
   std::vector<std::string> outputs;
+  std::string sizes;   ///< file of sizes; empty: none
   std::string report;  ///< empty: none
   Options options;     ///< without threads, progress and cancel
   std::optional<int> threads;

@@ -8,6 +8,8 @@ Json options_json(const RunReport& run) {
   const Report& report = run.report;
   Json options = {{"hausd", report.hausd}, {"hmin", report.hmin},   {"hmax", report.hmax},
                   {"hsiz", nullptr},       {"hgrad", report.hgrad}, {"angle", nullptr}};
+  options["sol"] = nullptr;
+  if (!run.arguments.sizes.empty()) options["sol"] = run.arguments.sizes;
   if (asked.hsiz) options["hsiz"] = *asked.hsiz;
   if (!run.arguments.no_angle) options["angle"] = asked.angle;
   options["min_quality"] = asked.min_quality;

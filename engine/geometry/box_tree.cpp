@@ -1,4 +1,4 @@
-#include "cavea/surface/box_tree.h"
+#include "cavea/geometry/box_tree.h"
 
 #include <algorithm>
 #include <numeric>
