@@ -1,36 +1,11 @@
 // The edge swap's triangulation of the ring against all there are.
-#include <cmath>
-#include <numbers>
-
 #include "operator/stage.h"
+#include "support/shells.h"
 
 namespace cavea::test {
 namespace {
 
 using Ring = std::vector<VertexId>;
-
-/// An edge with a closed shell of n tets: p is vertex 0, q is vertex 1, then the ring. Empty if the
-/// random places make a tet that is not positive.
-MeshData random_shell(int n, Random& random) {
-  MeshData data;
-  const double half = random.between(0.3, 1.5);
-  data.vertices = {{random.between(-0.3, 0.3), random.between(-0.3, 0.3), -half},
-                   {random.between(-0.3, 0.3), random.between(-0.3, 0.3), half}};
-  for (int i = 0; i < n; ++i) {
-    const double angle = 2 * std::numbers::pi * (i + random.between(-0.3, 0.3)) / n;
-    const double radius = random.between(0.5, 1.2);
-    data.vertices.push_back(
-        {radius * std::cos(angle), radius * std::sin(angle), random.between(-0.2, 0.2)});
-    data.tets.push_back({0, 1, 2 + i, 2 + (i + 1) % n});
-  }
-  for (const auto& t : data.tets)
-    if (!certainly_positive(data.vertices[t[0]], data.vertices[t[1]], data.vertices[t[2]],
-                            data.vertices[t[3]]))
-      return {};
-  data.vertex_refs.assign(data.vertices.size(), 0);
-  data.tet_refs.assign(data.tets.size(), 1);
-  return data;
-}
 
 /// Worse quality of the tets that p and q make with a triangle of the ring; 0 if one is inverted.
 double worse_of_two(const OperatorContext& c, VertexId p, VertexId q,

@@ -26,6 +26,17 @@ class Random {
   std::mt19937_64 bits_;
 };
 
+/// 0 .. n-1 in a random order.
+inline std::vector<std::int32_t> random_order(std::size_t n, Random& random) {
+  std::vector<std::int32_t> order(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int32_t j = random.below(std::int32_t(i) + 1);
+    order[i] = order[j];
+    order[j] = std::int32_t(i);
+  }
+  return order;
+}
+
 /// The regular tetrahedron of edge sqrt 2.
 inline MeshData single_tet() {
   MeshData data;
@@ -134,17 +145,8 @@ inline MeshData ball(int n) {
 /// permutation.
 inline MeshData shuffled(const MeshData& data, std::uint64_t seed) {
   Random random(seed);
-  const auto shuffle = [&](std::size_t n) {
-    std::vector<std::int32_t> order(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::int32_t j = random.below(std::int32_t(i) + 1);
-      order[i] = order[j];
-      order[j] = std::int32_t(i);
-    }
-    return order;
-  };
-  const std::vector<std::int32_t> to = shuffle(data.vertices.size());
-  const std::vector<std::int32_t> from = shuffle(data.tets.size());
+  const std::vector<std::int32_t> to = random_order(data.vertices.size(), random);
+  const std::vector<std::int32_t> from = random_order(data.tets.size(), random);
   MeshData out = data;
   for (std::size_t v = 0; v < to.size(); ++v) {
     out.vertices[to[v]] = data.vertices[v];
