@@ -21,7 +21,10 @@ class Run:
 def timed(command):
     """Runs a command without its output; measures it alone, not the runs before it."""
     start = time.monotonic()
-    child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    try:
+        child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    except OSError as error:
+        raise SystemExit(f"{command[0]}: {error.strerror}; is it built?") from None
     err = child.stderr.read()
     _, status, usage = os.wait4(child.pid, 0)
     seconds = time.monotonic() - start
