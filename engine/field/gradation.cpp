@@ -7,20 +7,17 @@
 #include "cavea/mesh/buckets.h"
 
 namespace cavea {
+namespace {
 
-void limit_gradation(TetMesh& mesh, double h_grad) {
-  const double slope = std::log(h_grad);
-  // Relaxing edges until none changes has one result in any order, since each step is monotone; the
-  // stamps let a sweep skip tets none of whose vertices has changed in the sweep before.
+/// Calls relax(from, to, length), which says whether it changed `to`, on all edges both ways until
+/// none changes. That has one result in any order where each step is monotone; the stamps let a
+/// sweep skip tets none of whose vertices has changed in the sweep before.
+template <class Relax>
+void relax_edges(const TetMesh& mesh, Relax&& relax) {
   std::vector<std::int32_t> changed(mesh.points.size(), 0);
   std::atomic<bool> again = true;
-  auto relax = [&](VertexId low, VertexId high, double length, std::int32_t sweep) {
-    const float from = std::atomic_ref(mesh.sizes[low]).load(std::memory_order_relaxed);
-    const float bound = float(double(from) + slope * length);
-    std::atomic_ref to(mesh.sizes[high]);
-    if (to.load(std::memory_order_relaxed) <= bound) return;
-    atomic_min(mesh.sizes[high], bound);
-    std::atomic_ref(changed[high]).store(sweep, std::memory_order_relaxed);
+  auto stamp = [&](VertexId v, std::int32_t sweep) {
+    std::atomic_ref(changed[v]).store(sweep, std::memory_order_relaxed);
     again.store(true, std::memory_order_relaxed);
   };
   for (std::int32_t sweep = 1; again.exchange(false); ++sweep)
@@ -33,10 +30,46 @@ void limit_gradation(TetMesh& mesh, double h_grad) {
       for (const auto& e : kEdgeVertices) {
         const VertexId a = v[e[0]], b = v[e[1]];
         const double length = distance(mesh.points[a], mesh.points[b]);
-        relax(a, b, length, sweep);
-        relax(b, a, length, sweep);
+        if (relax(a, b, length)) stamp(b, sweep);
+        if (relax(b, a, length)) stamp(a, sweep);
       }
     });
+}
+
+double load(float& x) { return std::atomic_ref(x).load(std::memory_order_relaxed); }
+
+/// Below these sizes none may come: the imposed ones, and around them what falls from them.
+std::vector<float> floors_around(const TetMesh& mesh, const ImposedSizes& imposed) {
+  const double slope = std::log(imposed.h_grad);
+  std::vector<float> below(imposed.sizes.size());  // negative, so that the minimum is the largest
+  for (std::size_t v = 0; v < below.size(); ++v) below[v] = -imposed.sizes[v];
+  if (!below.empty())
+    relax_edges(mesh, [&](VertexId from, VertexId to, double length) {
+      const float bound = float(load(below[from]) + slope * length);
+      if (!(bound < load(below[to]))) return false;
+      atomic_min(below[to], bound);
+      return true;
+    });
+  for (float& x : below) x = -x;
+  return below;
+}
+
+}  // namespace
+
+void limit_gradation(TetMesh& mesh, double h_grad, const ImposedSizes& imposed) {
+  const std::vector<float> floors = floors_around(mesh, imposed);
+  auto is_imposed = [&](VertexId v) { return !floors.empty() && imposed.sizes[v] > 0; };
+  for (std::size_t v = 0; v < floors.size(); ++v)
+    mesh.sizes[v] = is_imposed(VertexId(v)) ? imposed.sizes[v] : std::max(mesh.sizes[v], floors[v]);
+  const double slope = std::log(h_grad), slope_at_imposed = std::log(imposed.h_grad);
+  relax_edges(mesh, [&](VertexId low, VertexId high, double length) {
+    const double rise = is_imposed(low) || is_imposed(high) ? slope_at_imposed : slope;
+    float bound = float(load(mesh.sizes[low]) + rise * length);
+    if (!floors.empty()) bound = std::max(bound, floors[high]);
+    if (!(bound < load(mesh.sizes[high]))) return false;  // nor if it is none: 0 times infinity
+    atomic_min(mesh.sizes[high], bound);
+    return true;
+  });
 }
 
 }  // namespace cavea

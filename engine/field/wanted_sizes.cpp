@@ -9,6 +9,7 @@
 #include "cavea/base/error.h"
 #include "cavea/base/parallel.h"
 #include "cavea/field/gradation.h"
+#include "cavea/field/own_sizes.h"
 #include "cavea/mesh/buckets.h"
 
 namespace cavea {
@@ -45,7 +46,10 @@ void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>&
     const Vec3& p = mesh.points[senseless];
     throw InputError(fmt::format("the size field is not positive at ({}, {}, {})", p.x, p.y, p.z));
   }
-  if (bounds.hmin < bounds.hmax) limit_gradation(mesh, bounds.hgrad);
+  ImposedSizes imposed;
+  if (bounds.hgradreq) imposed = {required_sizes(mesh), *bounds.hgradreq};
+  if (!imposed.sizes.empty() || (bounds.hmin < bounds.hmax && std::isfinite(bounds.hgrad)))
+    limit_gradation(mesh, bounds.hgrad, imposed);
 }
 
 }  // namespace cavea

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "cavea/field/size_field.h"
 #include "cavea/mesh/tet_mesh.h"
@@ -8,7 +9,11 @@
 namespace cavea {
 
 struct SizeBounds {
-  double hmin = 0, hmax = 0, hgrad = 1;
+  double hmin = 0, hmax = 0;
+  double hgrad = 1;  ///< infinity for no bound
+  /// The gradation from required entities; they impose the lengths of their own edges. None: they
+  /// impose nothing.
+  std::optional<double> hgradreq;
 };
 
 /// The smallest and largest of some sizes; empty (smallest > largest) at first.
@@ -25,7 +30,8 @@ struct SizeRange {
 SizeRange wished_range(const TetMesh& mesh, const SizeField& field);
 
 /// Sets mesh.sizes (paper, section 4.2): the smaller of `curvature_size` (of surface vertices, by
-/// anchor) and the user's field, then the bounds, then the gradation. \pre no holes
+/// anchor) and the user's field, then the bounds, then the gradation, also that from required
+/// entities, which bounds do not concern. \pre no holes
 /// \throw InputError when the user's field gives a size that is not a positive number
 void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>& curvature_size,
                       const SizeField& field, const SizeBounds& bounds);

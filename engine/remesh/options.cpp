@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "cavea/base/error.h"
 #include "cavea/remesh/resolved.h"
@@ -13,6 +14,11 @@ namespace {
 void require_positive(const std::optional<double>& value, const char* name) {
   if (value && !(std::isfinite(*value) && *value > 0))
     throw OptionError(fmt::format("{} must be a positive number, not {}", name, *value));
+}
+
+void require_ratio(const std::optional<double>& value, const char* name) {
+  if (value && !(std::isfinite(*value) && *value >= 1))
+    throw OptionError(fmt::format("{} must be a number of at least 1, not {}", name, *value));
 }
 
 void require_range(double value, double low, double high, const char* name) {
@@ -30,8 +36,9 @@ void validate(const Options& o) {
   if (o.hsiz && (o.hmin || o.hmax)) throw OptionError("hsiz excludes hmin and hmax");
   if (o.hmin && o.hmax && *o.hmin > *o.hmax)
     throw OptionError(fmt::format("hmin {} is larger than hmax {}", *o.hmin, *o.hmax));
-  if (!(std::isfinite(o.hgrad) && o.hgrad >= 1))
-    throw OptionError(fmt::format("hgrad must be a number of at least 1, not {}", o.hgrad));
+  if (o.hsiz && o.optim) throw OptionError("optim excludes hsiz");
+  require_ratio(o.hgrad, "hgrad");
+  require_ratio(o.hgradreq, "hgradreq");
   require_range(o.angle, 0, 180, "angle");
   require_range(o.min_quality, 0, 1, "min_quality");
   require_range(o.min_conform, 0, 100, "min_conform");
@@ -44,7 +51,8 @@ ResolvedOptions resolve(const Options& o, double box_diagonal, const SizeRange& 
   constexpr double kHausd = 0.001, kHmin = 0.001, kHmax = 0.1;
   ResolvedOptions r;
   r.hausd = o.hausd.value_or(kHausd * box_diagonal);
-  r.hgrad = o.hgrad;
+  r.hgrad = o.hgrad.value_or(std::numeric_limits<double>::infinity());
+  r.hgradreq = o.hgradreq;
   if (o.hsiz) {
     r.hmin = r.hmax = *o.hsiz;
     return r;

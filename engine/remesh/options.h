@@ -21,9 +21,16 @@ struct Options {
   /// Shortest and longest wanted edge; by default 0.001 and 0.1 box diagonals, or the smallest and
   /// largest size that the user's field asks for at the vertices, if that is beyond.
   std::optional<double> hmin, hmax;
-  std::optional<double> hsiz;   ///< one size everywhere; excludes hmin and hmax
-  double hgrad = 1.3;           ///< largest ratio of adjacent edges (paper, equation (1)); >= 1
-  double angle = 45;            ///< degrees between normals above which an edge is a ridge
+  std::optional<double> hsiz;  ///< one size everywhere; excludes hmin and hmax
+  /// The mesh's own sizes in place of a field: at each vertex the mean length of its edges;
+  /// excludes a field and hsiz.
+  bool optim = false;
+  /// Largest ratio of adjacent edges (paper, equation (1)); >= 1, none for no bound.
+  std::optional<double> hgrad = 1.3;
+  /// The same from required entities outwards, whose own edges' lengths are imposed as sizes; >= 1.
+  /// None: they impose nothing. The default is mmg3d's.
+  std::optional<double> hgradreq = 2.3;
+  double angle = 45;  ///< degrees between normals above which an edge is a ridge
   bool detect_ridges = true;
 
   double min_quality = 0.1;  ///< target: worst quality

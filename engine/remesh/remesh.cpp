@@ -8,6 +8,7 @@
 #include "cavea/base/memory.h"
 #include "cavea/base/parallel.h"
 #include "cavea/base/timer.h"
+#include "cavea/field/own_sizes.h"
 #include "cavea/field/wanted_sizes.h"
 #include "cavea/mesh/check.h"
 #include "cavea/mesh/compact.h"
@@ -34,6 +35,7 @@ class Run {
   Run(const TetMesh& input, const SizeField& field, const Options& options)
       : mesh_(input), field_(field), options_(options) {
     compact(mesh_);
+    if (options.optim) field_ = own_sizes(mesh_);
     r_ = resolve(options, box_diagonal(mesh_), wished_range(mesh_, field));
   }
 
@@ -47,6 +49,9 @@ class Run {
       timed("measurement", [&] { distance_ = measure_distance(); });
     }
     timed("statistics", [&] { measure(); });
+    report_.peak_resident_bytes = peak_resident_bytes();
+    report_.seconds = timer_.seconds();
+    report_.tets_per_second = double(report_.after.counts.tets) / report_.seconds;
   }
 
   TetMesh mesh_;
@@ -74,13 +79,14 @@ class Run {
     surface_.emplace(mesh_,
                      SurfaceModel::Settings{r_.hausd, kMaxBulge * r_.hausd, r_.hmin, r_.hmax});
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
+    sizes_vary_ = !r_.uniform() || (r_.hgradreq && !required_sizes(mesh_).empty());
     resize();
     report_.before.lengths = length_statistics(mesh_);
   }
 
   void resize() {
     set_wanted_sizes(mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_,
-                     {r_.hmin, r_.hmax, r_.hgrad});
+                     {r_.hmin, r_.hmax, r_.hgrad, r_.hgradreq});
   }
 
   void run_phase(const Phase& phase) {
@@ -89,7 +95,7 @@ class Run {
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= phase.ask;
     for (int round = 1; round <= phase.rounds; ++round) {
       tell(phase.name, round);
-      if (phase.resize && round > 1 && !r_.uniform()) {
+      if (phase.resize && round > 1 && sizes_vary_) {
         resize();
         for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskLength;
       }
@@ -140,9 +146,6 @@ class Run {
     report_.hausd = r_.hausd, report_.hmin = r_.hmin, report_.hmax = r_.hmax,
     report_.hgrad = r_.hgrad;
     set_targets();
-    report_.seconds = timer_.seconds();
-    report_.tets_per_second = double(report_.after.counts.tets) / report_.seconds;
-    report_.peak_resident_bytes = peak_resident_bytes();
   }
 
   void set_targets() {
@@ -163,9 +166,10 @@ class Run {
         d.out_to_model.max > d.model_to_out.max ? d.out_to_model.where : d.model_to_out.where);
   }
 
-  const SizeField& field_;
+  SizeField field_;
   const Options& options_;
   ResolvedOptions r_;
+  bool sizes_vary_ = true;  ///< over space, so that new vertices want theirs set anew
   std::optional<SurfaceModel> surface_;
   SurfaceDistance distance_;
   VerdictTable verdicts_;
@@ -176,6 +180,7 @@ class Run {
 
 Report remesh(TetMesh& mesh, const SizeField& field, const Options& options) {
   validate(options);
+  if (options.optim && field) throw OptionError("optim excludes a field of sizes");
   const int threads = options.threads > 0 ? options.threads : default_threads();
   Report report;
   run_in_arena(threads, [&] {

@@ -37,7 +37,7 @@ struct MeshSummary {
 /// What remesh() did and how good the result is.
 struct Report {
   int threads = 0;
-  double hausd = 0, hmin = 0, hmax = 0, hgrad = 0;  ///< as resolved
+  double hausd = 0, hmin = 0, hmax = 0, hgrad = 0;  ///< as resolved; hgrad infinite if unbounded
   MeshSummary before, after;  ///< before.lengths is empty (edges 0) when sizes were not yet known
   std::vector<PhaseTime> phases;
   double seconds = 0;

@@ -34,6 +34,8 @@ TEST(Options, AreRefusedWhenSenseless) {
   }
   for (const double bad : {0.99, 0.0, -2.0, kNan, kInfinity})
     expect_refused([&](Options& o) { o.hgrad = bad; }, "hgrad");
+  for (const double bad : {0.99, -1.0, kNan, kInfinity})
+    expect_refused([&](Options& o) { o.hgradreq = bad; }, "hgradreq");
   for (const double bad : {-1.0, 181.0, kNan})
     expect_refused([&](Options& o) { o.angle = bad; }, "angle");
   for (const double bad : {-0.1, 1.1, kNan})
@@ -43,6 +45,7 @@ TEST(Options, AreRefusedWhenSenseless) {
   expect_refused([](Options& o) { o.hmin = 2, o.hmax = 1; }, "hmin");
   expect_refused([](Options& o) { o.hsiz = 1, o.hmin = 0.5; }, "hsiz");
   expect_refused([](Options& o) { o.hsiz = 1, o.hmax = 2; }, "hsiz");
+  expect_refused([](Options& o) { o.hsiz = 1, o.optim = true; }, "optim");
   expect_refused([](Options& o) { o.threads = -1; }, "threads");
 }
 
@@ -51,6 +54,7 @@ TEST(Options, OfNoHarmAreTaken) {
   Options options;
   options.hmin = options.hmax = 0.5;
   options.hgrad = 1;
+  options.hgradreq.reset();
   options.angle = 180;
   options.threads = 64;
   EXPECT_NO_THROW(validate(options));

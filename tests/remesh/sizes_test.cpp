@@ -129,6 +129,72 @@ TEST(Sizes, ThatAreNoneAreRefused) {
   }
 }
 
+TEST(Sizes, OfTheMeshItselfAreKept) {
+  // Cells from 0.03 to 0.16 wide.
+  MeshData data = mapped(kuhn_cube(12), [](const Vec3& p) {
+    return Vec3{p.x * (1 + p.x) / 2, p.y * (1 + p.y) / 2, p.z * (1 + p.z) / 2};
+  });
+  perturb_inside(data, 0.008, 1);
+  const TetMesh start = built(data);
+  TetMesh mesh = start;
+  Options options;
+  options.optim = true;
+  const Report report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  expect_good(report);
+  for (const Vec3& center : {Vec3{0, 0, 0}, {0.5, 0.5, 0.5}, {1, 1, 1}})
+    EXPECT_NEAR(mean_length_near(mesh, center, 0.3) / mean_length_near(start, center, 0.3), 1,
+                0.15);
+}
+
+TEST(Sizes, OfTheMeshItselfExcludeOthers) {
+  TetMesh mesh = built(kuhn_cube(2));
+  Options options;
+  options.optim = true;
+  EXPECT_THROW(remesh(mesh, graded, options), OptionError);
+}
+
+/// Two required triangles at the corner (0, 0, 0), four times as coarse as the rest is to be.
+TetMesh with_required_corner(std::optional<double> hgradreq, Report& report) {
+  MeshData data = to_data(built(kuhn_cube(4)));
+  for (std::size_t t = 0; t < data.triangles.size(); ++t)
+    for (const std::int32_t v : data.triangles[t])
+      if (data.vertices[v] == Vec3{0, 0, 0}) data.required_triangles.push_back(std::int32_t(t));
+  TetMesh mesh = built(data);
+  Options options = uniform(0.06);
+  options.hgradreq = hgradreq;
+  report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  return mesh;
+}
+
+TEST(Sizes, FollowRequiredEntitiesOutwards) {
+  Report imposed, alone;
+  const TetMesh mesh = with_required_corner(2.3, imposed);
+  const TetMesh other = with_required_corner(std::nullopt, alone);
+  EXPECT_EQ(*std::max_element(other.sizes.begin(), other.sizes.end()), 0.06f);
+  EXPECT_GT(*std::max_element(mesh.sizes.begin(), mesh.sizes.end()), 0.25f);
+  EXPECT_GT(mean_length_near(mesh, {0, 0, 0}, 0.35),
+            1.2 * mean_length_near(other, {0, 0, 0}, 0.35));
+  EXPECT_NEAR(mean_length_near(mesh, {1, 1, 1}, 0.5), mean_length_near(other, {1, 1, 1}, 0.5),
+              0.003);
+  EXPECT_GT(imposed.after.quality.worst, alone.after.quality.worst);
+  EXPECT_GT(imposed.after.lengths.conforming_percent(), alone.after.lengths.conforming_percent());
+}
+
+TEST(Sizes, WithoutGradationMayJump) {
+  const auto jump = [](const Vec3& p) { return p.x < 0.5 ? 0.04 : 0.2; };
+  const auto tets = [&](std::optional<double> hgrad) {
+    TetMesh mesh = built(kuhn_cube(8));
+    Options options;
+    options.hgrad = hgrad;
+    const Report report = remesh(mesh, jump, options);
+    expect_sound(mesh);
+    return report.after.counts.tets;
+  };
+  EXPECT_LT(double(tets(std::nullopt)), 0.9 * double(tets(1.3)));
+}
+
 struct Motion {
   const char* name;
   double scale;

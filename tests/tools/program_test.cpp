@@ -136,6 +136,18 @@ TEST_F(RunTest, TakesItsSizesFromAFile) {
   EXPECT_LT(report["after"]["counts"]["tets"], 2000);
 }
 
+TEST_F(RunTest, ReportsWhichGradationsAreOff) {
+  write_text(file("in.mesh"), cube_text());
+  ASSERT_EQ(cavea({"remesh", "in.mesh", "--optim", "--no-hgrad", "--no-hgradreq", "-o", "out.mesh",
+                   "--report", "report.json", "--min-conform", "0"})
+                .status,
+            0);
+  const Json options = read_json("report.json")["options"];
+  EXPECT_TRUE(options["hgrad"].is_null());
+  EXPECT_TRUE(options["hgradreq"].is_null());
+  EXPECT_EQ(options["optim"], true);
+}
+
 TEST_F(RunTest, OverwritesAnOlderOutput) {
   write_text(file("out.mesh"), "old");
   ASSERT_EQ(cavea({"remesh", kSample, "-o", "out.mesh"}).status, 0);

@@ -72,6 +72,9 @@ TEST_F(UsageTest, RefusesSizesThatAreNotPositive) {
 TEST_F(UsageTest, RefusesOtherSenselessOptions) {
   for (const char* value : {"0.9", "0", "-1", "nan", "inf"})
     expect_option_refused({"--hgrad", value}, "hgrad");
+  for (const char* value : {"0.9", "nan"}) expect_option_refused({"--hgradreq", value}, "hgradreq");
+  expect_option_refused({"--hgrad", "2", "--no-hgrad"}, "--no-hgrad");
+  expect_option_refused({"--hgradreq", "2", "--no-hgradreq"}, "--no-hgradreq");
   for (const char* value : {"-1", "181", "nan", "inf"})
     expect_option_refused({"--angle", value}, "angle");
   for (const char* value : {"0", "-2"}) expect_option_refused({"--threads", value}, "threads");
@@ -147,6 +150,8 @@ TEST_F(UsageTest, RefusesSizesBesideOneSizeAndUnderAnOutput) {
   write_text(file("in.sol"), sizes_text("1", "1 1 1 1 1 1 1 1"));
   write_text(file("out.sol"), sizes_text("1", "1 1 1 1 1 1 1 1"));
   expect_option_refused({"--sol", "in.sol", "--hsiz", "0.2"}, "--hsiz");
+  expect_option_refused({"--sol", "in.sol", "--optim"}, "--optim");
+  expect_option_refused({"--hsiz", "0.2", "--optim"}, "--optim");
   expect_option_refused({"--sol", "out.sol"}, "out.sol");
   expect_option_refused({"--sol", "in.sol", "--report", "in.sol"}, "--sol");
 }

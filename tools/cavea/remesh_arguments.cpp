@@ -17,12 +17,26 @@ void add_size_flags(CLI::App& command, RemeshArguments& arguments) {
   command.add_option("--hmin", options.hmin, "Shortest wanted edge [0.001 of the box diagonal]");
   command.add_option("--hmax", options.hmax, "Longest wanted edge [0.1 of the box diagonal]");
   CLI::Option* uniform = command.add_option("--hsiz", options.hsiz, "One edge length everywhere");
-  command
-      .add_option("--sol", arguments.sizes,
-                  "Wanted edge lengths at the vertices of IN (.sol, .solb)")
-      ->excludes(uniform);
-  command.add_option("--hgrad", options.hgrad, "Largest ratio of adjacent edge lengths")
-      ->capture_default_str();
+  CLI::Option* sizes = command
+                           .add_option("--sol", arguments.sizes,
+                                       "Wanted edge lengths at the vertices of IN (.sol, .solb)")
+                           ->excludes(uniform);
+  command.add_flag("--optim", options.optim, "Keep the mesh's own edge lengths")
+      ->excludes(uniform)
+      ->excludes(sizes);
+}
+
+void add_gradation_flags(CLI::App& command, RemeshArguments& arguments) {
+  const auto add = [&](const std::string& name, std::optional<double>& value, bool& none,
+                       const std::string& what) {
+    CLI::Option* ratio =
+        command.add_option("--" + name, value, fmt::format("{} [{}]", what, *value));
+    command.add_flag("--no-" + name, none, "No bound of it")->excludes(ratio);
+  };
+  add("hgrad", arguments.options.hgrad, arguments.no_hgrad,
+      "Largest ratio of adjacent edge lengths");
+  add("hgradreq", arguments.options.hgradreq, arguments.no_hgradreq,
+      "The same from required entities, which keep their lengths");
 }
 
 void add_angle_flags(CLI::App& command, RemeshArguments& arguments) {
@@ -64,6 +78,7 @@ CLI::App* add_remesh_command(CLI::App& app, RemeshArguments& arguments) {
   command->add_option("IN", arguments.input, "Mesh to read")->required();
   add_output_flags(*command, arguments);
   add_size_flags(*command, arguments);
+  add_gradation_flags(*command, arguments);
   add_angle_flags(*command, arguments);
   add_target_flags(*command, arguments.options);
   command->add_option("--threads", arguments.threads, "Number of threads [all cores]");
@@ -77,6 +92,8 @@ CLI::App* add_remesh_command(CLI::App& app, RemeshArguments& arguments) {
 Options to_options(const RemeshArguments& arguments) {
   Options options = arguments.options;
   options.detect_ridges = !arguments.no_angle;
+  if (arguments.no_hgrad) options.hgrad.reset();
+  if (arguments.no_hgradreq) options.hgradreq.reset();
   // The library reads 0 as "all cores"; a number that a user typed must be one.
   if (arguments.threads) {
     if (*arguments.threads < 1)

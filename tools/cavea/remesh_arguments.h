@@ -17,7 +17,8 @@ struct RemeshArguments {
   std::string report;  ///< empty: none
   Options options;     ///< without threads, progress and cancel
   std::optional<int> threads;
-  bool no_angle = false, verbose = false, quiet = false;
+  bool no_angle = false, no_hgrad = false, no_hgradreq = false;
+  bool verbose = false, quiet = false;
 };
 
 /// Adds the command and its flags; parsing fills `arguments`, which must outlive `app`.

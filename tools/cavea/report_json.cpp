@@ -12,6 +12,9 @@ Json options_json(const RunReport& run) {
   if (!run.arguments.sizes.empty()) options["sol"] = run.arguments.sizes;
   if (asked.hsiz) options["hsiz"] = *asked.hsiz;
   if (!run.arguments.no_angle) options["angle"] = asked.angle;
+  options["optim"] = asked.optim;
+  options["hgradreq"] = nullptr;
+  if (asked.hgradreq && !run.arguments.no_hgradreq) options["hgradreq"] = *asked.hgradreq;
   options["min_quality"] = asked.min_quality;
   options["min_conform"] = asked.min_conform;
   return options;

@@ -1,0 +1,45 @@
+#include "cavea/field/own_sizes.h"
+
+#include <memory>
+
+#include "cavea/field/mean_lengths.h"
+#include "cavea/field/mesh_size_field.h"
+
+namespace cavea {
+namespace {
+
+template <class F>
+void for_each_edge(const TetMesh& m, TetId t, F&& f) {
+  for (const auto& e : kEdgeVertices) f(m.tets[t][e[0]], m.tets[t][e[1]]);
+}
+
+/// Calls f(a, b) for the required edges of a tet: those inside the volume, known by their ends, and
+/// those of its surface triangles.
+template <class F>
+void for_each_required_edge(const TetMesh& m, TetId t, F&& f) {
+  for_each_edge(m, t, [&](VertexId a, VertexId b) {
+    if (m.vertex_tags[a] & m.vertex_tags[b] & tag::kOnRequiredEdge) f(a, b);
+  });
+  for (const FaceLink link : m.links[t]) {
+    if (!link.is_triangle()) continue;
+    const Triangle& s = m.triangles[link.triangle()];
+    for (int k = 0; k < 3; ++k)
+      if ((s.tags | s.edge_tag[k]) & tag::kRequired) f(s.v[(k + 1) % 3], s.v[(k + 2) % 3]);
+  }
+}
+
+}  // namespace
+
+SizeField own_sizes(TetMesh mesh) {
+  mesh.sizes = mean_lengths(mesh, [&](TetId t, auto&& f) { for_each_edge(mesh, t, f); });
+  return [map = std::make_shared<MeshSizeField>(mesh)](const Vec3& p) { return (*map)(p); };
+}
+
+std::vector<float> required_sizes(const TetMesh& mesh) {
+  std::vector<float> sizes =
+      mean_lengths(mesh, [&](TetId t, auto&& f) { for_each_required_edge(mesh, t, f); });
+  if (std::all_of(sizes.begin(), sizes.end(), [](float h) { return h == 0; })) sizes.clear();
+  return sizes;
+}
+
+}  // namespace cavea

@@ -1,0 +1,17 @@
+#pragma once
+#include "cavea/field/size_field.h"
+#include "cavea/mesh/tet_mesh.h"
+
+namespace cavea {
+
+/// The sizes that a mesh has: at each vertex the mean length of its edges, between them as
+/// MeshSizeField says. A snapshot.
+SizeField own_sizes(TetMesh mesh);
+
+/// The sizes that required entities have, which no remeshing changes: at each vertex the mean
+/// length of its required edges (those of required triangles and tets too, and what runs inside
+/// between two such ends: it is not touched either), 0 where it has none;
+/// empty if no vertex has any.
+std::vector<float> required_sizes(const TetMesh& mesh);
+
+}  // namespace cavea
