@@ -25,6 +25,10 @@ struct Box {
                  z = outside(p.z, low.z, high.z);
     return x * x + y * y + z * z;
   }
+  bool overlaps(const Box& b) const {
+    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y &&
+           low.z <= b.high.z && b.low.z <= high.z;
+  }
 
  private:
   static constexpr double kFar = 1.7976931348623157e308;
@@ -62,6 +66,26 @@ class BoxTree {
       if (a.second < b.second) std::swap(a, b);
       stack[depth++] = a;
       stack[depth++] = b;
+    }
+  }
+  /// Calls visit(slot) for all boxes in the leaves that overlap `box`: those that overlap it and
+  /// some more.
+  template <class Visit>
+  void visit_overlapping(const Box& box, Visit&& visit) const {
+    if (order_.empty()) return;
+    std::array<std::size_t, kMaxLevels + 2> stack;
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const std::size_t node = stack[--depth];
+      if (!nodes_[node].overlaps(box)) continue;
+      if (node < first_leaf()) {
+        stack[depth++] = 2 * node + 1;
+        stack[depth++] = 2 * node + 2;
+        continue;
+      }
+      const auto [begin, end] = range(levels_, node - first_leaf());
+      for (std::size_t slot = begin; slot < end; ++slot) visit(slot);
     }
   }
 

@@ -11,11 +11,12 @@ SurfaceFit fit_triangle(const OperatorContext& context, const std::array<Vec3, 3
   if (norm2(n) == 0) return kNoFit;
   const SurfacePoint at = context.surface.place((t[0] + t[1] + t[2]) / 3, patch, hints);
   if (at.anchor.facet == kNone) return kNoFit;
-  SurfaceFit fit{dot(n, context.surface.normal(at.anchor, patch)), at.distance2};
+  SurfaceFit fit{dot(n, context.surface.normal(at.anchor, patch)),
+                 at.distance2 / context.tolerance2(at.anchor)};
   for (int k = 0; k < 3; ++k) {
     const Vec3 middle = (t[std::size_t(k)] + t[std::size_t(k + 1) % 3]) / 2;
-    const double d2 = context.surface.place(middle, patch, {&at.anchor, 1}).distance2;
-    fit.deviation2 = std::max(fit.deviation2, d2);
+    const SurfacePoint p = context.surface.place(middle, patch, {&at.anchor, 1});
+    fit.deviation2 = std::max(fit.deviation2, p.distance2 / context.tolerance2(p.anchor));
   }
   return fit;
 }
@@ -37,8 +38,7 @@ Verdict judge_surface(const OperatorContext& c, const SurfaceFit& fit,
   // wider than half the default ridge angle so that coarse inputs are not stuck, narrow enough for
   // no fold.
   constexpr double kFoldCosine = 0.5;
-  const double tolerance2 = c.limits.tolerance * c.limits.tolerance;
-  const bool folded = fit.cosine<kFoldCosine, off = fit.deviation2> tolerance2;
+  const bool folded = fit.cosine<kFoldCosine, off = fit.deviation2> 1;
   if (!folded && !off) return Verdict::kAccept;
   const SurfaceFit before = fit_of(c, old);
   if (folded && fit.cosine < before.cosine) return Verdict::kFolded;

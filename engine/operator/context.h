@@ -23,7 +23,8 @@ struct Limits {
   double quality_ratio = 0.5;
   /// ... or to this value.
   double quality_floor = 0.3;
-  double tolerance = 0;  ///< largest distance of a surface triangle's samples from the model
+  /// Share of the surface model's tolerance that the samples of surface triangles may use up.
+  double tolerance_share = 1;
 };
 
 /// What the operators read, and their scratch space: one a thread of control, reused.
@@ -45,6 +46,11 @@ struct OperatorContext {
   Tag tags(VertexId v) const { return mesh.vertex_tags[v]; }
   double length(VertexId a, VertexId b) const {
     return metric_length(distance(mesh.points[a], mesh.points[b]), mesh.sizes[a], mesh.sizes[b]);
+  }
+  /// Squared distance from the ideal surface that is allowed at an anchor.
+  double tolerance2(const Anchor& anchor) const {
+    const double t = limits.tolerance_share * surface.tolerance(anchor);
+    return t * t;
   }
   /// Edge that belongs to the interface of the part, or to a required edge or tet.
   bool frozen_edge(VertexId a, VertexId b) const {
@@ -73,7 +79,7 @@ inline constexpr double kQualityGain = 1.02;
 /// How surface triangles fit the ideal surface: the worst of several.
 struct SurfaceFit {
   double cosine = 1;  ///< between a triangle's normal and the ideal surface's below its centroid
-  double deviation2 = 0;  ///< largest squared distance of the sample points
+  double deviation2 = 0;  ///< largest squared distance of the sample points, in tolerances there
 
   void add(const SurfaceFit& other) {
     cosine = std::min(cosine, other.cosine);

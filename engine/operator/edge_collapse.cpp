@@ -116,8 +116,7 @@ Verdict check_surface(const OperatorContext& c, const Cavity& cavity) {
                              c.mesh.anchors[s.p]};
     fit.add(fit_triangle(c, x, t.patch, hints));
   }
-  const double tolerance2 = c.limits.tolerance * c.limits.tolerance;
-  if (nearest2 > tolerance2 && !(c.tags(s.p) & tag::kOffSurface)) return Verdict::kOffSurface;
+  if (nearest2 > c.tolerance2(c.mesh.anchors[s.p]) && !(c.tags(s.p) & tag::kOffSurface)) return Verdict::kOffSurface;
   return judge_surface(c, fit, cavity.removed_triangles);
 }
 
@@ -135,7 +134,7 @@ Verdict check_curve(const OperatorContext& c, const std::vector<TriangleId>& fan
   }
   if (previous == kNone) return Verdict::kBreaksFeature;
   const Vec3 a = c.point(previous), b = c.point(s.q), p = c.point(s.p);
-  const double tolerance2 = c.limits.tolerance * c.limits.tolerance;
+  const double tolerance2 = c.tolerance2(c.mesh.anchors[s.p]);
   if (closest_on_segment(p, a, b).distance2 > tolerance2) return Verdict::kOffSurface;
   const Anchor hints[1] = {c.mesh.anchors[s.p]};
   if (c.surface.place_on_curve((a + b) / 2, hints).distance2 > tolerance2)

@@ -44,7 +44,7 @@ double misfit(const PartState& s, const Triangle& t, int k) {
   const Vec3 middle = (c.point(a) + c.point(b)) / 2;
   const SurfacePoint at = t.edge_tag[k] & tag::kFeature ? c.surface.place_on_curve(middle, hints)
                                                         : c.surface.place(middle, t.patch, hints);
-  return at.anchor.facet == kNone ? 0 : std::sqrt(at.distance2) / c.limits.tolerance;
+  return at.anchor.facet == kNone ? 0 : std::sqrt(at.distance2 / c.tolerance2(at.anchor));
 }
 
 void add_misfits(const PartState& s, TetId tet, std::vector<EdgeTask>& tasks) {

@@ -30,6 +30,10 @@ void require_range(double value, double low, double high, const char* name) {
 
 void validate(const Options& o) {
   require_positive(o.hausd, "hausd");
+  if (o.max_bulge && !(std::isfinite(*o.max_bulge) && *o.max_bulge >= 0))
+    throw OptionError(
+        fmt::format("max_bulge must be a number of at least 0, not {}", *o.max_bulge));
+  if (o.faceted && o.max_bulge) throw OptionError("faceted excludes max_bulge");
   require_positive(o.hmin, "hmin");
   require_positive(o.hmax, "hmax");
   require_positive(o.hsiz, "hsiz");
@@ -51,6 +55,9 @@ ResolvedOptions resolve(const Options& o, double box_diagonal, const SizeRange& 
   constexpr double kHausd = 0.001, kHmin = 0.001, kHmax = 0.1;
   ResolvedOptions r;
   r.hausd = o.hausd.value_or(kHausd * box_diagonal);
+  // A coarse input is thus rounded, not blown up.
+  constexpr double kBulges = 3;
+  r.max_bulge = o.faceted ? 0 : o.max_bulge.value_or(kBulges * r.hausd);
   r.hgrad = o.hgrad.value_or(std::numeric_limits<double>::infinity());
   r.hgradreq = o.hgradreq;
   if (o.hsiz) {

@@ -18,6 +18,9 @@ struct Progress {
 /// bounding box (see resolve()).
 struct Options {
   std::optional<double> hausd;  ///< distance to the ideal surface; default 0.001 box diagonals
+  /// Largest distance of the ideal surface from the input's triangles; default 3 hausd.
+  std::optional<double> max_bulge;
+  bool faceted = false;  ///< the input's triangles are the ideal surface: no bulge at all
   /// Shortest and longest wanted edge; by default 0.001 and 0.1 box diagonals, or the smallest and
   /// largest size that the user's field asks for at the vertices, if that is beyond.
   std::optional<double> hmin, hmax;

@@ -12,7 +12,7 @@ constexpr double kFittedEdge = 1.5;
 
 CycleSettings base(const ResolvedOptions& o) {
   CycleSettings s;
-  s.limits.tolerance = kOperatorShare * o.hausd;
+  s.limits.tolerance_share = kOperatorShare;
   s.shortest_fitted = o.uniform() ? 0 : kFittedEdge * o.hmin;
   return s;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cavea/base/error.h"
@@ -16,6 +17,7 @@
 #include "cavea/remesh/bulk.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/resolved.h"
+#include "cavea/surface/crossings.h"
 #include "cavea/surface/distance.h"
 #include "cavea/surface/features.h"
 #include "cavea/surface/surface_model.h"
@@ -23,11 +25,12 @@
 namespace cavea {
 namespace {
 
-/// How far the smooth model may leave the input's triangles, in tolerances.
-constexpr double kMaxBulge = 3;
+/// Places farther than this share of hausd are made finer: what lies between two samples may be
+/// farther than they.
+constexpr double kMeasuredShare = 0.95;
 
 /// Places that are still too far from the surface after this many repairs are left and reported.
-constexpr int kRepairs = 5;
+constexpr int kRepairs = 7;
 
 /// One run of remesh(): the mesh it works on and what it reports.
 class Run {
@@ -44,7 +47,8 @@ class Run {
     timed("bulk", [&] { refine_in_bulk(mesh_, *surface_, [&] { resize(); }); });
     for (const Phase& phase : recipe(r_)) timed(phase.name, [&] { run_phase(phase); });
     timed("measurement", [&] { distance_ = measure_distance(); });
-    for (int k = 0; k < kRepairs && !r_.uniform() && distance_.max() > r_.hausd; ++k) {
+    for (int k = 0; k < kRepairs && !r_.uniform() && distance_.worse().worst > kMeasuredShare;
+         ++k) {
       timed("repair", [&] { repair(); });
       timed("measurement", [&] { distance_ = measure_distance(); });
     }
@@ -75,13 +79,22 @@ class Run {
   void analyse() {
     report_.before.counts = count(mesh_);
     report_.before.quality = quality_statistics(mesh_);
-    classify_features(mesh_, {options_.angle, options_.detect_ridges});
-    surface_.emplace(mesh_,
-                     SurfaceModel::Settings{r_.hausd, kMaxBulge * r_.hausd, r_.hmin, r_.hmax});
+    classify_features(mesh_, feature_options());
+    surface_.emplace(mesh_, SurfaceModel::Settings{r_.hausd, r_.max_bulge, r_.hmin, r_.hmax});
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
     sizes_vary_ = !r_.uniform() || (r_.hgradreq && !required_sizes(mesh_).empty());
     resize();
     report_.before.lengths = length_statistics(mesh_);
+  }
+
+  FeatureOptions feature_options() const {
+    // An edge of the wanted size h across a fold of angle a sags by h a / 4; where triangles of
+    // height w meet at a, h = sqrt(4.5 hausd w / a). Beyond a w = 3 hausd the sag is too large:
+    // then edges must follow the fold, and w is no less than about h, so that they can.
+    constexpr double kFold = 3;
+    FeatureOptions o{options_.angle, options_.detect_ridges};
+    if (options_.faceted) o.crease = kFold * r_.hausd;
+    return o;
   }
 
   void resize() {
@@ -113,24 +126,31 @@ class Run {
 
   SurfaceDistance measure_distance() const {
     return measure_surface_distance(mesh_, *surface_, default_sample_step(mesh_, *surface_),
-                                    r_.hausd);
+                                    kMeasuredShare);
   }
 
   /// Makes the surface finer where it is too far from the model: what the curvature did not tell.
   void repair() {
     // The distance goes with the square of the size; a little more for good measure.
-    auto factor = [&](double distance) {
-      return std::max(0.5, 0.9 * std::sqrt(r_.hausd / distance));
+    auto factor = [&](const FarSample& f) {
+      return std::max(0.5, 0.75 * std::sqrt(kMeasuredShare * f.hausd / f.distance));
     };
-    auto shrink = [&](const FarSample& f, const Anchor& anchor) {
-      surface_->shrink_sizes(f.where, anchor, surface_->size(anchor), factor(f.distance));
+    std::vector<SurfaceModel::Spot> spots;
+    // The triangle's vertices are to lie inside the spot, whatever rounding does.
+    constexpr double kReach = 1.01;
+    auto add = [&](const FarSample& f) {
+      if (f.triangle == kNone) return;
+      SurfaceModel::Spot spot{f.where, 0, r_.hmax};
+      for (VertexId v : mesh_.triangles[std::size_t(f.triangle)].v) {
+        spot.radius = std::max(spot.radius, kReach * distance(f.where, mesh_.points[v]));
+        spot.size = std::min(spot.size, double(mesh_.sizes[v]));
+      }
+      spot.size *= factor(f);
+      spots.push_back(spot);
     };
-    for (const FarSample& f : distance_.far_facets) shrink(f, {f.id, 1.0f / 3, 1.0f / 3});
-    for (const FarSample& f : distance_.far_triangles) {
-      const Triangle& t = mesh_.triangles[std::size_t(f.id)];
-      const Anchor hints[3] = {mesh_.anchors[t.v[0]], mesh_.anchors[t.v[1]], mesh_.anchors[t.v[2]]};
-      shrink(f, surface_->place(f.where, t.patch, hints).anchor);
-    }
+    std::for_each(distance_.far_facets.begin(), distance_.far_facets.end(), add);
+    std::for_each(distance_.far_triangles.begin(), distance_.far_triangles.end(), add);
+    surface_->add_spots(spots);
     resize();
     for (Phase phase : repair_recipe(r_)) run_phase(phase);
   }
@@ -145,6 +165,7 @@ class Run {
           report_.verdicts.push_back({name(Operator(o)), name(Verdict(v)), n});
     report_.hausd = r_.hausd, report_.hmin = r_.hmin, report_.hmax = r_.hmax,
     report_.hgrad = r_.hgrad;
+    crossings_ = find_crossings(mesh_);
     set_targets();
   }
 
@@ -161,13 +182,16 @@ class Run {
         q.worst_place);
     add("conforming lengths", options_.min_conform, l.conforming_percent(),
         l.conforming_percent() >= options_.min_conform, l.longest_place);
-    const SurfaceDistance& d = distance_;
-    add("surface distance", r_.hausd, d.max(), d.max() <= r_.hausd,
-        d.out_to_model.max > d.model_to_out.max ? d.out_to_model.where : d.model_to_out.where);
+    const OneSidedDistance& d = distance_.worse();
+    const double hausd = d.hausd > 0 ? d.hausd : r_.hausd;
+    add("surface distance", hausd, d.worst * hausd, d.worst <= 1, d.where);
+    add("surface crossings", 0, double(crossings_.size()), crossings_.empty(),
+        crossings_.empty() ? Vec3{} : crossings_[0].where);
   }
 
   SizeField field_;
   const Options& options_;
+  std::vector<Crossing> crossings_;
   ResolvedOptions r_;
   bool sizes_vary_ = true;  ///< over space, so that new vertices want theirs set anew
   std::optional<SurfaceModel> surface_;

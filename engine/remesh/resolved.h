@@ -6,7 +6,7 @@ namespace cavea {
 
 /// The lengths of a run, all set.
 struct ResolvedOptions {
-  double hausd = 0, hmin = 0, hmax = 0;
+  double hausd = 0, max_bulge = 0, hmin = 0, hmax = 0;
   double hgrad = 1;  ///< infinity for no bound
   std::optional<double> hgradreq;
   bool uniform() const { return hmin == hmax; }

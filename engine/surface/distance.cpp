@@ -31,15 +31,26 @@ void for_each_sample(int n, F&& f) {
   if (n % 3 != 0) f(1.0 / 3, 1.0 / 3);
 }
 
+/// A sample's distance, and hausd at the facet that it is from or to.
+struct Measured {
+  double distance, hausd;
+  std::int32_t triangle = kNone;  ///< of the output, that it is from or to
+};
+
 /// What the samples of one triangle say.
 struct Sampled {
-  double max = -1, sum = 0, area = 0;
+  double max = -1, worst = -1, hausd = 0, sum = 0, area = 0;
   Vec3 where;
+  std::int32_t triangle = kNone;
   int count = 0;
 
-  void add(const Vec3& x, double distance) {
-    if (distance > max) max = distance, where = x;
-    sum += distance;
+  void add(const Vec3& x, const Measured& m) {
+    max = std::max(max, m.distance);
+    if (m.distance > worst * m.hausd) {
+      worst = m.distance / m.hausd, hausd = m.hausd;
+      where = x, triangle = m.triangle;
+    }
+    sum += m.distance;
     ++count;
   }
 };
@@ -72,19 +83,24 @@ std::vector<Sampled> sample_all(std::span<const Corners> triangles, double step,
 OneSidedDistance fold(const std::vector<Sampled>& samples) {
   Sampled total;
   for (const Sampled& s : samples) {
-    if (s.max > total.max) total.max = s.max, total.where = s.where;
+    total.max = std::max(total.max, s.max);
+    if (s.worst > total.worst) total.worst = s.worst, total.hausd = s.hausd, total.where = s.where;
     total.sum += s.area * (s.sum / s.count);
     total.area += s.area;
   }
-  return {std::max(total.max, 0.0), total.area > 0 ? total.sum / total.area : 0, total.where};
+  return {std::max(total.max, 0.0), total.area > 0 ? total.sum / total.area : 0,
+          std::max(total.worst, 0.0), total.hausd, total.where};
 }
 
-/// \param id_of the id of the i-th triangle
+/// \param id_of the id of the i-th sampled triangle \param ids of the output's triangles
 template <class IdOf>
-std::vector<FarSample> beyond(const std::vector<Sampled>& samples, double tolerance, IdOf&& id_of) {
+std::vector<FarSample> beyond(const std::vector<Sampled>& samples, double most, IdOf&& id_of,
+                              const std::vector<TriangleId>& ids) {
   std::vector<FarSample> far;
   for (std::size_t i = 0; i < samples.size(); ++i)
-    if (samples[i].max > tolerance) far.push_back({id_of(i), samples[i].where, samples[i].max});
+    if (const Sampled& s = samples[i]; s.worst > most)
+      far.push_back({id_of(i), s.where, s.worst * s.hausd, s.hausd,
+                     s.triangle == kNone ? kNone : ids[std::size_t(s.triangle)]});
   return far;
 }
 
@@ -120,10 +136,11 @@ std::vector<Sampled> sample_output(const OutputSurface& out, const SurfaceModel&
   return sample_all(
       out.corners, step,
       [&](std::size_t t, double u, double v) { return on_flat(out.corners[t], u, v); },
-      [&](std::size_t) {
-        return [&tree, last = NearestOnModel{}](const Vec3& x) mutable {
+      [&](std::size_t t) {
+        return [&, t, last = NearestOnModel{}](const Vec3& x) mutable {
           last = tree.nearest(x, last);
-          return std::sqrt(last.place.distance2);
+          const double hausd = last.facet == kNone ? 1 : model.hausd(last.facet);
+          return Measured{std::sqrt(last.place.distance2), hausd, std::int32_t(t)};
         };
       });
 }
@@ -143,10 +160,11 @@ std::vector<Sampled> sample_model(const SurfaceModel& model, std::span<const Cor
 std::vector<Sampled> sample_model_from(const OutputSurface& out, const SurfaceModel& model,
                                        std::span<const Corners> facets, double step) {
   const FacetTree tree(out.corners);
-  return sample_model(model, facets, step, [&](std::size_t) {
-    return [&tree, last = NearestFacet{}](const Vec3& x) mutable {
+  return sample_model(model, facets, step, [&](std::size_t f) {
+    return [&tree, hausd = model.hausd(std::int32_t(f)),
+            last = NearestFacet{}](const Vec3& x) mutable {
       last = tree.nearest_from(x, last);
-      return std::sqrt(last.distance2);
+      return Measured{std::sqrt(last.distance2), hausd, last.facet};
     };
   });
 }
@@ -154,13 +172,14 @@ std::vector<Sampled> sample_model_from(const OutputSurface& out, const SurfaceMo
 double measure_bulge(const SurfaceModel& model, std::span<const Corners> facets, double step) {
   const FacetTree tree(facets);
   const std::vector<Sampled> samples = sample_model(model, facets, step, [&](std::size_t f) {
-    return [&tree, &own = facets[f], worst2 = 0.0](const Vec3& x) mutable {
+    return [&tree, &own = facets[f], hausd = model.hausd(std::int32_t(f)),
+            worst2 = 0.0](const Vec3& x) mutable {
       // The other facets matter only to a sample that would raise the largest distance.
       double d2 = closest_on_triangle(x, own[0], own[1], own[2]).distance2;
-      if (d2 <= worst2) return std::sqrt(d2);
+      if (d2 <= worst2) return Measured{std::sqrt(d2), hausd};
       if (const NearestFacet r = tree.nearest(x, d2); r.facet != kNone) d2 = r.distance2;
       worst2 = std::max(worst2, d2);
-      return std::sqrt(d2);
+      return Measured{std::sqrt(d2), hausd};
     };
   });
   return fold(samples).max;
@@ -169,16 +188,18 @@ double measure_bulge(const SurfaceModel& model, std::span<const Corners> facets,
 }  // namespace
 
 SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel& model,
-                                         double step, double tolerance) {
+                                         double step, double most) {
   const OutputSurface out(mesh);
   const std::vector<Corners> facets = facets_of(model);
   SurfaceDistance result;
   const std::vector<Sampled> of_out = sample_output(out, model, step);
   result.out_to_model = fold(of_out);
-  result.far_triangles = beyond(of_out, tolerance, [&](std::size_t i) { return out.ids[i]; });
+  result.far_triangles = beyond(
+      of_out, most, [&](std::size_t i) { return out.ids[i]; }, out.ids);
   const std::vector<Sampled> of_model = sample_model_from(out, model, facets, step);
   result.model_to_out = fold(of_model);
-  result.far_facets = beyond(of_model, tolerance, [](std::size_t i) { return std::int32_t(i); });
+  result.far_facets = beyond(
+      of_model, most, [](std::size_t i) { return std::int32_t(i); }, out.ids);
   result.bulge = measure_bulge(model, facets, step);
   return result;
 }

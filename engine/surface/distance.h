@@ -12,15 +12,18 @@ namespace cavea {
 /// How far the samples of one surface are from another.
 struct OneSidedDistance {
   double max = 0;
-  double mean = 0;  ///< weighted by area
-  Vec3 where;       ///< the sample that is farthest
+  double mean = 0;   ///< weighted by area
+  double worst = 0;  ///< largest in hausd of the facets there, which may differ by reference
+  double hausd = 0;  ///< that of the worst sample's facet
+  Vec3 where;        ///< the worst sample
 };
 
-/// A triangle or facet with a sample beyond the tolerance.
+/// A triangle or facet with a sample that is too far.
 struct FarSample {
   std::int32_t id = kNone;  ///< TriangleId of the mesh, or facet of the model
   Vec3 where;               ///< its farthest sample
-  double distance = 0;
+  double distance = 0, hausd = 0;
+  TriangleId triangle = kNone;  ///< of the mesh, which holds the sample or is nearest to it
 };
 
 /// The two-sided distance between a mesh's surface and the ideal surface, in the mesh's unit of
@@ -32,6 +35,9 @@ struct SurfaceDistance {
   std::vector<FarSample> far_triangles, far_facets;  ///< in the order of the ids
 
   double max() const { return std::max(out_to_model.max, model_to_out.max); }
+  const OneSidedDistance& worse() const {
+    return out_to_model.worst > model_to_out.worst ? out_to_model : model_to_out;
+  }
 };
 
 /// Measures the Hausdorff distance on samples: each triangle, and each patch over its facet, on a
@@ -39,10 +45,11 @@ struct SurfaceDistance {
 /// triangle would have more than about 300 samples; its corners, edge midpoints and centroid are
 /// always among them. Each sample is measured against all of the other surface, whatever its
 /// patches. Infinite from a surface that is empty; 0 of one that is. The same bits at any number of
-/// threads. \param step greater than 0 \param tolerance triangles and facets beyond it are listed
-SurfaceDistance measure_surface_distance(
-    const TetMesh& mesh, const SurfaceModel& model, double step,
-    double tolerance = std::numeric_limits<double>::infinity());
+/// threads. \param step greater than 0 \param most triangles and facets with samples beyond so many
+/// hausd are listed
+SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel& model,
+                                         double step,
+                                         double most = std::numeric_limits<double>::infinity());
 
 /// A step for measure_surface_distance(): 1/400 of the model's box diagonal, or more where that
 /// would take more than about 50 samples a triangle on the average of either surface.

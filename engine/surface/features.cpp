@@ -1,5 +1,6 @@
 #include "cavea/surface/features.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -51,8 +52,32 @@ Vec3 triangle_normal(const TetMesh& m, const Triangle& t) {
       cross(m.points[t.v[1]] - m.points[t.v[0]], m.points[t.v[2]] - m.points[t.v[0]]));
 }
 
-Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end, double cos_ridge,
-              bool detect) {
+/// The options as cosines.
+struct Sharpness {
+  explicit Sharpness(const FeatureOptions& o)
+      : cosine(std::cos(o.angle * std::numbers::pi / 180)),
+        detect(o.detect_ridges),
+        crease(o.crease) {}
+  bool folds(double cos_angle, double length) const {
+    return std::acos(std::clamp(cos_angle, -1.0, 1.0)) * length > crease;
+  }
+  double cosine;
+  bool detect;
+  double crease;
+};
+
+/// Mean height of the two triangles at an edge over it.
+double mean_height(const TetMesh& m, const EdgeSide* begin) {
+  double areas = 0;
+  for (int i = 0; i < 2; ++i) {
+    const auto& v = m.triangles[begin[i].triangle].v;
+    areas += norm(cross(m.points[v[1]] - m.points[v[0]], m.points[v[2]] - m.points[v[0]])) / 2;
+  }
+  return areas / distance(m.points[begin->a], m.points[begin->b]);
+}
+
+Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end,
+              const Sharpness& sharpness) {
   Tag tags = 0;
   int outside = 0;
   for (const EdgeSide* s = begin; s != end; ++s) {
@@ -67,14 +92,17 @@ Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end, doub
   const Vec3 n0 = triangle_normal(m, t0), n1 = triangle_normal(m, t1);
   // A triangle of zero area has no normal and says nothing about sharpness.
   const bool both = norm2(n0) > 0 && norm2(n1) > 0;
-  if (detect && both && dot(n0, n1) < cos_ridge) tags |= tag::kRidge;
+  if (!both) return tags;
+  const double cosine = dot(n0, n1);
+  if (sharpness.detect && cosine < sharpness.cosine) tags |= tag::kRidge;
+  if (sharpness.folds(cosine, mean_height(m, begin))) tags |= tag::kRidge;
   return tags;
 }
 
 void tag_edges(TetMesh& m, const std::vector<EdgeSide>& sides, const FeatureOptions& options) {
-  const double cos_ridge = std::cos(options.angle * std::numbers::pi / 180);
+  const Sharpness sharpness(options);
   for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
-    const Tag tags = edge_tags(m, begin, end, cos_ridge, options.detect_ridges);
+    const Tag tags = edge_tags(m, begin, end, sharpness);
     std::int32_t ref = 0;
     for (const EdgeSide* s = begin; s != end; ++s) {
       const std::int32_t r = m.triangles[s->triangle].edge_ref[s->k];
@@ -112,23 +140,26 @@ std::vector<FeatureStar> gather_stars(const TetMesh& m, const std::vector<EdgeSi
   return stars;
 }
 
-bool is_corner(const TetMesh& m, VertexId v, const FeatureStar& star, double cos_turn) {
+bool is_corner(const TetMesh& m, VertexId v, const FeatureStar& star, const Sharpness& sharpness) {
   if (star.fans > 1 || star.degree == 1 || star.degree > 2) return true;
   if (star.degree == 0) return false;
   if ((star.kinds[0] & star.kinds[1]) == 0) return true;
   const Vec3 in = normalized(m.points[v] - m.points[star.ends[0]]);
   const Vec3 out = normalized(m.points[star.ends[1]] - m.points[v]);
-  return dot(in, out) < cos_turn;
+  const double cosine = dot(in, out);
+  if (cosine < sharpness.cosine) return true;
+  const double length =
+      distance(m.points[star.ends[0]], m.points[v]) + distance(m.points[star.ends[1]], m.points[v]);
+  return sharpness.folds(cosine, length / 2);
 }
 
-void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars, double angle) {
-  const double cos_turn = std::cos(angle * std::numbers::pi / 180);
+void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars, const Sharpness& sharpness) {
   for (std::size_t v = 0; v < stars.size(); ++v) {
     const FeatureStar& star = stars[v];
     if (star.fans == 0) continue;
     m.vertex_tags[v] |= Tag(tag::kSurface | (star.all_kinds & (kOnCurve | tag::kPinched)));
     if (star.fans > 1) m.vertex_tags[v] |= tag::kPinched;
-    if (is_corner(m, VertexId(v), star, cos_turn)) m.vertex_tags[v] |= tag::kCorner;
+    if (is_corner(m, VertexId(v), star, sharpness)) m.vertex_tags[v] |= tag::kCorner;
   }
 }
 
@@ -155,7 +186,7 @@ int number_patches(TetMesh& m, const std::vector<EdgeSide>& sides) {
 int classify_features(TetMesh& mesh, const FeatureOptions& options) {
   const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles);
   tag_edges(mesh, sides, options);
-  tag_vertices(mesh, gather_stars(mesh, sides), options.angle);
+  tag_vertices(mesh, gather_stars(mesh, sides), Sharpness(options));
   return number_patches(mesh, sides);
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "cavea/mesh/tet_mesh.h"
 
 namespace cavea {
@@ -6,6 +8,10 @@ namespace cavea {
 struct FeatureOptions {
   double angle = 45;          ///< degrees between the normals of two triangles above which a ridge
   bool detect_ridges = true;  ///< false: only the ridges that the mesh carries
+  /// An edge is a ridge, whatever its angle, also where that angle (in radians) times the mean
+  /// height of its two triangles over it exceeds this length; a curve has a corner where the same
+  /// holds of its turn and its edges. For surfaces whose flat triangles are the truth.
+  double crease = std::numeric_limits<double>::infinity();
 };
 
 /// Classifies the surface of a mesh (paper, section 3.1): tags ridges by angle, corners (ends of

@@ -47,7 +47,10 @@ double bulge_of(const BezierTriangle& p) {
 
 }  // namespace
 
-NearestOnPatch closest_on_patch(const Vec3& p, const BezierTriangle& patch, double u, double v) {
+namespace {
+
+/// The search from one start.
+NearestOnPatch search_from(const Vec3& p, const BezierTriangle& patch, double u, double v) {
   const Vec3 start = patch.at(u, v);
   NearestOnPatch best{u, v, start, distance2(start, p)};
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -61,6 +64,21 @@ NearestOnPatch closest_on_patch(const Vec3& p, const BezierTriangle& patch, doub
     best = {c.u, c.v, x, d2};
     if (done) break;
   }
+  return best;
+}
+
+}  // namespace
+
+NearestOnPatch closest_on_patch(const Vec3& p, const BezierTriangle& patch, double u, double v) {
+  NearestOnPatch best = search_from(p, patch, u, v);
+  const Vec3 flat = (1 - u - v) * patch.corner[0] + u * patch.corner[1] + v * patch.corner[2];
+  if (best.distance2 <= distance2(flat, p)) return best;
+  // The patch should follow its facet, but where two of its edges are on one curve it is nearly
+  // singular at their common corner, and the search may stall: then from elsewhere.
+  constexpr double kStarts[][2] = {{1.0 / 3, 1.0 / 3}, {0.5, 0}, {0, 0.5}, {0.5, 0.5}};
+  for (const auto& [s, t] : kStarts)
+    if (const NearestOnPatch r = search_from(p, patch, s, t); r.distance2 < best.distance2)
+      best = r;
   return best;
 }
 

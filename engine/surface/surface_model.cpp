@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_set>
 
 #include "cavea/base/error.h"
 #include "cavea/geometry/closest.h"
@@ -147,9 +146,7 @@ SurfacePoint SurfaceModel::place_on_curve(const Vec3& guess, std::span<const Anc
   for (const Anchor& hint : hints) {
     const std::int32_t v = corner_vertex(hint);
     if (v == kNone) continue;
-    for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i)
-      for (const std::int32_t e : facet_curve_[vertex_facets_[i]])
-        if (e != kNone && (curves_[e].v[0] == v || curves_[e].v[1] == v)) try_edge(e);
+    for_each_curve_at(v, try_edge);
   }
   return result;
 }
@@ -166,40 +163,22 @@ Vec3 SurfaceModel::normal(const Anchor& anchor, int patch) const {
   return normalized(n);
 }
 
-double SurfaceModel::deviation2(const std::array<Vec3, 3>& t, int patch,
-                                std::span<const Anchor> hints) const {
-  double worst = place((t[0] + t[1] + t[2]) / 3, patch, hints).distance2;
-  for (int k = 0; k < 3; ++k)
-    worst = std::max(worst, place((t[k] + t[(k + 1) % 3]) / 2, patch, hints).distance2);
-  return worst;
+double SurfaceModel::tolerance(const Anchor& anchor) const {
+  if (anchor.facet == kNone) return settings_.tolerance;
+  if (!is_curve(anchor)) return facet_tolerance_[anchor.facet];
+  const CurveEdge& c = curves_[-2 - anchor.facet];
+  double smallest = facet_tolerance_[curve_facets_[c.first_facet]];
+  for (int i = 1; i < c.facet_count; ++i)
+    smallest = std::min(smallest, facet_tolerance_[curve_facets_[c.first_facet + i]]);
+  return smallest;
 }
 
-double SurfaceModel::size(const Anchor& anchor) const {
-  if (anchor.facet == kNone) return settings_.hmax;
-  if (is_curve(anchor)) {
-    const auto& v = curves_[-2 - anchor.facet].v;
-    return (1 - anchor.u) * sizes_[v[0]] + anchor.u * sizes_[v[1]];
-  }
-  const auto& v = facets_[anchor.facet];
-  return (1 - double(anchor.u) - anchor.v) * sizes_[v[0]] + anchor.u * sizes_[v[1]] +
-         anchor.v * sizes_[v[2]];
-}
-
-void SurfaceModel::shrink_sizes(const Vec3& place, const Anchor& anchor, double radius,
-                                double factor) {
-  if (anchor.facet == kNone) return;
-  const double radius2 = radius * radius;
-  std::vector<std::int32_t> reached{
-      is_curve(anchor) ? curve_facets_[curves_[-2 - anchor.facet].first_facet] : anchor.facet};
-  std::unordered_set<std::int32_t> seen(reached.begin(), reached.end()), shrunk;
-  for (std::size_t i = 0; i < reached.size(); ++i)
-    for (const std::int32_t v : facets_[reached[i]]) {
-      if (!shrunk.insert(v).second) continue;
-      sizes_[v] = std::max(settings_.hmin, sizes_[v] * factor);
-      if (distance2(points_[v], place) > radius2) continue;
-      for (std::int32_t k = vertex_first_[v]; k < vertex_first_[v + 1]; ++k)
-        if (seen.insert(vertex_facets_[k]).second) reached.push_back(vertex_facets_[k]);
-    }
+/// The smallest tolerance of the facets at a vertex.
+double SurfaceModel::vertex_tolerance(std::int32_t v) const {
+  double smallest = kEndless;
+  for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i)
+    smallest = std::min(smallest, facet_tolerance_[vertex_facets_[i]]);
+  return smallest;
 }
 
 }  // namespace cavea

@@ -1,11 +1,14 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cavea/mesh/tet_mesh.h"
 #include "cavea/surface/bezier.h"
+#include "cavea/surface/sheets.h"
 
 namespace cavea {
 
@@ -28,6 +31,9 @@ class SurfaceModel {
     double tolerance = 0;  ///< hausd
     double max_bulge = 0;  ///< a control point is kept within this distance of the flat facet
     double hmin = 0, hmax = 0;
+    /// Other tolerances for triangles of certain references, their bulges in proportion; read by
+    /// the constructor only.
+    std::span<const std::pair<std::int32_t, double>> tolerance_of_reference = {};
   };
 
   /// Takes the snapshot of a classified mesh (classify_features) and sets the anchors of its
@@ -45,34 +51,43 @@ class SurfaceModel {
   /// Unit normal of the model at an anchor, of the side of `patch`.
   Vec3 normal(const Anchor& anchor, int patch) const;
 
-  /// Largest squared distance of the sample points of a triangle (edge midpoints and centroid) from
-  /// the model. `hints` as for place().
-  double deviation2(const std::array<Vec3, 3>& triangle, int patch,
-                    std::span<const Anchor> hints) const;
+  /// How far the surface may be from the model at an anchor: hausd, or less where another sheet of
+  /// the exterior boundary is so near that both could meet.
+  double tolerance(const Anchor& anchor) const;
+  /// hausd at a facet, by its reference.
+  double hausd(std::int32_t facet) const { return facet_hausd_[std::size_t(facet)]; }
 
-  /// Size wanted at an anchor for the sake of the curvature (paper, section 4.2), in [hmin, hmax].
+  /// Size wanted at an anchor for the sake of the curvature (paper, section 4.2) and of thin walls,
+  /// in [hmin, hmax].
   double size(const Anchor& anchor) const;
 
   std::size_t facets() const { return facets_.size(); }
+  int patch_number(std::int32_t f) const { return facet_patch_[f]; }
   const BezierTriangle& patch_of_facet(std::int32_t f) const { return patches_[f]; }
   std::array<Vec3, 3> facet_corners(std::int32_t f) const {
     return {points_[facets_[f][0]], points_[facets_[f][1]], points_[facets_[f][2]]};
   }
 
-  /// Reduces by a factor (never below hmin) the wanted sizes within `radius` of a place, on the
-  /// facets reached from the anchor over facets that are as near; not while others read.
-  void shrink_sizes(const Vec3& place, const Anchor& anchor, double radius, double factor);
+  /// A ball in which the surface is wanted finer than the shape itself tells.
+  struct Spot {
+    Vec3 place;
+    double radius = 0, size = 0;
+  };
+  /// Bounds the wanted sizes by those of the spots, too; not while others read.
+  void add_spots(const std::vector<Spot>& spots);
 
   static std::int32_t curve_anchor(std::int32_t edge) { return -2 - edge; }
   static bool is_curve(const Anchor& a) { return a.facet <= -2; }
 
  private:
+  static constexpr double kEndless = std::numeric_limits<double>::infinity();
   struct CurveEdge {
     std::array<std::int32_t, 2> v{kNone, kNone};
     std::array<std::int32_t, 2> next{kNone,
                                      kNone};  ///< the curve's edge beyond each end; none at corners
     BezierCurve curve;
     std::int32_t first_facet = 0, facet_count = 0;  ///< in curve_facets_
+    double chain_length = kEndless;                 ///< of the whole curve between two corners
   };
   struct WalkResult {
     std::int32_t facet = kNone;
@@ -81,13 +96,27 @@ class SurfaceModel {
 
   void take_facets(TetMesh& mesh);
   void link_facets();
+  std::vector<std::array<Vec3, 3>> all_corners() const;
+  std::vector<Box> curve_boxes() const;
   void set_normals();
+  void set_tolerances();
   void set_tangents();
   void set_control_points();
+  void set_chain_lengths();
   void set_sizes();
   void set_anchors(TetMesh& mesh) const;
   double curvature_of_fan(std::int32_t facet, int corner, std::vector<std::int32_t>& seen) const;
-  Vec3 clamp_to_chord(const Vec3& control, const Vec3& chord_point) const;
+  double hausd_of(std::int32_t reference) const;
+  double vertex_tolerance(std::int32_t v) const;
+  double bulge_between(std::int32_t v, std::int32_t w) const {
+    return std::min(vertex_bulge_[v], vertex_bulge_[w]);
+  }
+  double spot_size(const Vec3& place, double size) const;
+  double size_on_curve(std::int32_t edge, const Vec3& place, double size) const;
+  double narrow_size(std::int32_t edge, const Vec3& place, double size) const;
+  bool share_patch(std::int32_t a, std::int32_t b) const;
+  double thin_size(std::int32_t facet, const Vec3& place, double size) const;
+  static Vec3 clamp_to_chord(const Vec3& control, const Vec3& chord_point, double bulge);
   std::array<Vec3, 2> edge_controls(std::int32_t facet, int k) const;
 
   std::int32_t corner_vertex(const Anchor& a) const;
@@ -97,6 +126,14 @@ class SurfaceModel {
   template <class F>
   void for_fan(std::int32_t facet, int corner, bool across_references, F&& f) const;
 
+  /// Calls f(edge) for the curve edges that start at a corner of the snapshot, some twice.
+  template <class F>
+  void for_each_curve_at(std::int32_t v, F&& f) const {
+    for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i)
+      for (const std::int32_t e : facet_curve_[vertex_facets_[i]])
+        if (e != kNone && (curves_[e].v[0] == v || curves_[e].v[1] == v)) f(e);
+  }
+
   /// Steps of one walk; a walk that is longer has lost its way and ends where it is.
   static constexpr int kMaxWalk = 400;
 
@@ -104,6 +141,8 @@ class SurfaceModel {
   std::vector<Vec3> points_;
   std::vector<std::array<std::int32_t, 3>> facets_;
   std::vector<int> facet_patch_;
+  std::vector<char> facet_exterior_;
+  std::vector<double> facet_hausd_, facet_tolerance_;
   /// Facet across the edge opposite corner k; none across ridges and non-manifold edges.
   std::vector<std::array<std::int32_t, 3>> smooth_neighbors_;
   std::vector<std::array<std::int32_t, 3>>
@@ -116,6 +155,12 @@ class SurfaceModel {
   std::vector<char> vertex_corner_;
   std::vector<std::int32_t> vertex_first_;  ///< CSR vertex -> facets
   std::vector<std::int32_t> vertex_facets_;
+  std::vector<double>
+      vertex_bulge_;  ///< largest distance of control points near it from the facets
+  std::optional<Sheets> sheets_;
+  std::optional<BoxTree> curve_tree_;
+  std::vector<Spot> spots_;
+  std::optional<BoxTree> spot_tree_;  ///< if there are any
   std::vector<double> sizes_;
   std::vector<std::int32_t> snapshot_vertex_;  ///< of the mesh's vertices, during construction only
 };

@@ -1,5 +1,4 @@
-// Construction of the SurfaceModel: facets, normals, tangents, control points, sizes, anchors.
-#include <Eigen/Dense>
+// Construction of the SurfaceModel: facets, normals, tangents, control points, anchors.
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +12,12 @@ SurfaceModel::SurfaceModel(TetMesh& mesh, const Settings& settings) : settings_(
   take_facets(mesh);
   link_facets();
   set_normals();
+  sheets_.emplace(all_corners(), facets_);
+  set_tolerances();
   set_tangents();
   set_control_points();
+  curve_tree_.emplace(curve_boxes());
+  set_chain_lengths();
   set_sizes();
   set_anchors(mesh);
   snapshot_vertex_ = {};
@@ -39,6 +42,8 @@ void SurfaceModel::take_facets(TetMesh& mesh) {
     }
     facets_.push_back(f);
     facet_patch_.push_back(t.patch);
+    facet_exterior_.push_back(t.sides[1].is_unset());
+    facet_hausd_.push_back(hausd_of(t.ref));
   }
   smooth_neighbors_.assign(facets_.size(), {kNone, kNone, kNone});
   facet_curve_.assign(facets_.size(), {kNone, kNone, kNone});
@@ -89,6 +94,19 @@ void SurfaceModel::link_facets() {
     }
 }
 
+std::vector<std::array<Vec3, 3>> SurfaceModel::all_corners() const {
+  std::vector<std::array<Vec3, 3>> corners(facets_.size());
+  parallel_for(corners.size(), [&](std::size_t f) { corners[f] = facet_corners(std::int32_t(f)); });
+  return corners;
+}
+
+std::vector<Box> SurfaceModel::curve_boxes() const {
+  std::vector<Box> boxes(curves_.size());
+  for (std::size_t e = 0; e < curves_.size(); ++e)
+    for (std::int32_t v : curves_[e].v) boxes[e].add(points_[v]);
+  return boxes;
+}
+
 /// Area-weighted normal of the smooth fan around each corner of each facet (paper, section 3.1);
 /// ridges end a fan, references do not.
 void SurfaceModel::set_normals() {
@@ -109,6 +127,36 @@ void SurfaceModel::set_normals() {
   });
 }
 
+double SurfaceModel::hausd_of(std::int32_t reference) const {
+  for (const auto& [of, tolerance] : settings_.tolerance_of_reference)
+    if (of == reference) return tolerance;
+  return settings_.tolerance;
+}
+
+/// The tolerance of each facet: that of its reference, but no more than a share of the way to the
+/// next sheet of the exterior boundary across empty space, and the same for the bulge: so both
+/// sheets may bulge and deviate and never meet. Inside the volume, tets keep sheets apart.
+void SurfaceModel::set_tolerances() {
+  // Two sheets, each with its bulge and its deviation, and some for what lies between samples.
+  constexpr double kShareOfGap = 0.2;
+  // Sheets that touch have no gap; less than this share of hausd would count rounding.
+  constexpr double kLeast = 1e-6;
+  // What is ahead within 60 degrees and turned towards us by more than 107 degrees.
+  constexpr Sheets::Facing kAcross{1, 0.5, -0.3};
+  const double bulge = settings_.max_bulge / settings_.tolerance;
+  const std::vector<double> gap = sheets_->all_opposite(kAcross, [&](std::size_t f) {
+    return facet_exterior_[f] ? std::max(1.0, bulge) * facet_hausd_[f] / kShareOfGap : 0;
+  });
+  facet_tolerance_.resize(facets_.size());
+  vertex_bulge_.assign(points_.size(), kEndless);
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    const double hausd = facet_hausd_[f], room = std::max(kShareOfGap * gap[f], kLeast * hausd);
+    facet_tolerance_[f] = std::min(hausd, room);
+    for (std::int32_t v : facets_[f])
+      vertex_bulge_[v] = std::min(vertex_bulge_[v], std::min(bulge * hausd, room));
+  }
+}
+
 /// Curves: at a vertex where the curve goes on, the tangent of the circle through the neighbours;
 /// at a corner, the chord. The control points are a third of the chord's length along the tangents.
 void SurfaceModel::set_tangents() {
@@ -127,16 +175,18 @@ void SurfaceModel::set_tangents() {
     CurveEdge& c = curves_[e];
     const Vec3 a = points_[c.v[0]], b = points_[c.v[1]];
     const double third = distance(a, b) / 3;
-    c.curve.points = {a, clamp_to_chord(a + third * tangent(std::int32_t(e), 0), a + (b - a) / 3),
-                      clamp_to_chord(b + third * tangent(std::int32_t(e), 1), b + (a - b) / 3), b};
+    const double bulge = bulge_between(c.v[0], c.v[1]);
+    c.curve.points = {
+        a, clamp_to_chord(a + third * tangent(std::int32_t(e), 0), a + (b - a) / 3, bulge),
+        clamp_to_chord(b + third * tangent(std::int32_t(e), 1), b + (a - b) / 3, bulge), b};
   });
 }
 
 /// Pulls a control point towards its place on the flat edge so that the bulge stays within bounds.
-Vec3 SurfaceModel::clamp_to_chord(const Vec3& control, const Vec3& chord_point) const {
+Vec3 SurfaceModel::clamp_to_chord(const Vec3& control, const Vec3& chord_point, double bulge) {
   const Vec3 d = control - chord_point;
   const double length = norm(d);
-  return length <= settings_.max_bulge ? control : chord_point + (settings_.max_bulge / length) * d;
+  return length <= bulge ? control : chord_point + (bulge / length) * d;
 }
 
 /// The two control points of the edge opposite corner k of a facet, from corner k+1 to k+2: those
@@ -150,10 +200,11 @@ std::array<Vec3, 2> SurfaceModel::edge_controls(std::int32_t f, int k) const {
     return {c.curve.points[2], c.curve.points[1]};
   }
   const Vec3 a = points_[facets_[f][i]], b = points_[facets_[f][j]];
+  const double bulge = bulge_between(facets_[f][i], facets_[f][j]);
   auto control = [&](const Vec3& from, const Vec3& to, const Vec3& n) {
     const Vec3 d = to - from;
     const Vec3 t = normalized(d - dot(d, n) * n);
-    return clamp_to_chord(from + (norm(d) / 3) * t, from + d / 3);
+    return clamp_to_chord(from + (norm(d) / 3) * t, from + d / 3, bulge);
   };
   return {control(a, b, normals_[f][i]), control(b, a, normals_[f][j])};
 }
@@ -166,81 +217,6 @@ void SurfaceModel::set_control_points() {
     for (int k = 0; k < 3; ++k) p.edge[k] = edge_controls(std::int32_t(f), k);
     p.set_center();
   });
-}
-
-/// Largest principal curvature of the smooth fan at a corner: the second fundamental form that fits
-/// the normal curvatures 2 n.(q - p) / |q - p|^2 of the fan's edges best.
-double SurfaceModel::curvature_of_fan(std::int32_t facet, int corner,
-                                      std::vector<std::int32_t>& seen) const {
-  const std::int32_t v = facets_[facet][corner];
-  const Vec3 p = points_[v], n = normals_[facet][corner];
-  seen.clear();
-  auto add = [&](std::int32_t f) {
-    for (std::int32_t q : facets_[f])
-      if (q != v && std::find(seen.begin(), seen.end(), q) == seen.end()) seen.push_back(q);
-  };
-  add(facet);
-  for_fan(facet, corner, true, add);
-  const Vec3 helper = std::abs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 e1 = normalized(cross(n, helper)), e2 = cross(n, e1);
-  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double steepest = 0;
-  for (std::int32_t q : seen) {
-    const Vec3 d = points_[q] - p;
-    const double l2 = norm2(d);
-    if (!(l2 > 0)) continue;
-    const double kappa = 2 * dot(n, d) / l2;
-    const double x = dot(d, e1), y = dot(d, e2), r2 = x * x + y * y;
-    if (!(r2 > 0)) continue;
-    steepest = std::max(steepest, std::abs(kappa));
-    const Eigen::Vector3d row(x * x / r2, 2 * x * y / r2, y * y / r2);
-    normal_matrix += row * row.transpose();
-    right += kappa * row;
-  }
-  // Fewer than three independent directions leave the form undetermined: then the steepest edge.
-  constexpr double kIndependent = 1e-3;
-  const Eigen::LDLT<Eigen::Matrix3d> ldlt(normal_matrix);
-  if (seen.size() < 3 || !(ldlt.vectorD().minCoeff() > kIndependent)) return steepest;
-  const Eigen::Vector3d form = ldlt.solve(right);
-  const double mean = (form[0] + form[2]) / 2;
-  const double radius = std::hypot((form[0] - form[2]) / 2, form[1]);
-  return std::min(std::abs(mean) + radius, 2 * steepest);
-}
-
-/// h = sqrt(9 eps / (2 kappa)) at each vertex, smallest over its fans and its curve (paper, section
-/// 4.2); zero curvature gives hmax.
-void SurfaceModel::set_sizes() {
-  auto size_of = [&](double kappa) {
-    const double h = kappa > 0 ? std::sqrt(4.5 * settings_.tolerance / kappa) : settings_.hmax;
-    return std::clamp(h, settings_.hmin, settings_.hmax);
-  };
-  sizes_.assign(points_.size(), settings_.hmax);
-  parallel_ranges(points_.size(), 256, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::int32_t> seen;
-    for (std::size_t v = begin; v < end; ++v) {
-      double kappa = 0;
-      for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i) {
-        const std::int32_t f = vertex_facets_[i];
-        const int corner = facets_[f][0] == std::int32_t(v)   ? 0
-                           : facets_[f][1] == std::int32_t(v) ? 1
-                                                              : 2;
-        kappa = std::max(kappa, curvature_of_fan(f, corner, seen));
-        if (vertex_curve_[v] == kNone) break;  // a single fan: all its facets give the same
-      }
-      sizes_[v] = size_of(kappa);
-    }
-  });
-  for (const CurveEdge& c : curves_)
-    for (int end = 0; end < 2; ++end) {
-      if (c.next[end] == kNone) continue;
-      const CurveEdge& n = curves_[c.next[end]];
-      const Vec3 p = points_[c.v[end]], a = points_[c.v[1 - end]],
-                 b = points_[n.v[0] == c.v[end] ? n.v[1] : n.v[0]];
-      const double product = distance(p, a) * distance(p, b) * distance(a, b);
-      const double kappa = product > 0 ? 2 * norm(cross(a - p, b - p)) / product : 0;
-      sizes_[c.v[end]] = std::min(sizes_[c.v[end]], size_of(kappa));
-    }
 }
 
 void SurfaceModel::set_anchors(TetMesh& mesh) const {

@@ -9,7 +9,6 @@ namespace {
 
 CycleSettings settings() {
   CycleSettings s;
-  s.limits.tolerance = kTolerance;
   s.repair_below = 0.2;
   s.sweeps = 3;
   return s;

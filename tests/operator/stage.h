@@ -42,7 +42,6 @@ struct Stage {
         editor(mesh),
         context(mesh, surface) {
     mesh.sizes.assign(mesh.points.size(), float(size));
-    context.limits.tolerance = kTolerance;
   }
 
   /// Gathers the shell of an edge into the context; false if it stands no longer.

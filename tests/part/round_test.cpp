@@ -15,7 +15,6 @@ SurfaceModel model_of(TetMesh& mesh) { return {mesh, {kTolerance, 3 * kTolerance
 
 CycleSettings settings() {
   CycleSettings s;
-  s.limits.tolerance = kTolerance;
   s.repair_below = 0.2;
   s.sweeps = 2;
   return s;

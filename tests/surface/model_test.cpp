@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "cavea/surface/patch_tree.h"
@@ -9,6 +10,8 @@
 namespace cavea {
 namespace {
 
+using test::kuhn_cube;
+using test::modelled;
 using test::modelled_ball;
 using test::modelled_cube;
 using test::modelled_cylinder;
@@ -201,45 +204,98 @@ TEST(SurfaceModel, SizesFollowTheCurvature) {
     if (a.facet == kNone) continue;
     const Vec3& p = cylinder.mesh.points[v];
     const bool on_lid = p.x * p.x + p.y * p.y < 1 - 1e-9;
-    const double expected = on_lid ? test::kSettings.hmax : wanted;
+    // The lids are the two sides of a wall of thickness 1.
+    const double expected = on_lid ? 1.4 : wanted;
     EXPECT_NEAR(cylinder.model.size(a), expected, 0.1 * expected);
   }
 }
 
-TEST(SurfaceModel, ShrinkSizesReachesAsFarAsItIsTold) {
+TEST(SurfaceModel, SpotsBoundTheSizesInsideThem) {
   auto ball = modelled_ball(6);
-  const double before = ball.model.size({0, 0.25f, 0.25f});
   const Vec3 pole = ball.mesh.points[0];
-  constexpr double kRadius = 0.7;
-  ball.model.shrink_sizes(pole, ball.mesh.anchors[0], kRadius, 0.5);
-  for (std::size_t v = 0; v < ball.mesh.points.size(); ++v) {
-    const Anchor& a = ball.mesh.anchors[v];
-    if (a.facet == kNone) continue;
-    const double size = ball.model.size(a), away = distance(ball.mesh.points[v], pole);
-    if (away < kRadius) {
-      EXPECT_LT(size, 0.6 * before);
-    } else if (away > 2 * kRadius) {
-      EXPECT_GT(size, 0.8 * before);
-    }
+  constexpr double kRadius = 0.7, kSize = 0.01;
+  const auto sizes = [&] {
+    std::vector<double> h;
+    for (const Anchor& a : ball.mesh.anchors) h.push_back(ball.model.size(a));
+    return h;
+  };
+  const std::vector<double> before = sizes();
+  ball.model.add_spots({{pole, kRadius, kSize}});
+  const std::vector<double> after = sizes();
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    if (ball.mesh.anchors[v].facet == kNone) continue;
+    const bool inside = distance(ball.mesh.points[v], pole) < kRadius;
+    EXPECT_EQ(after[v], inside ? std::min(before[v], kSize) : before[v]);
   }
-  ball.model.shrink_sizes(pole, ball.mesh.anchors[0], kRadius, 1e-9);
-  EXPECT_NEAR(ball.model.size(ball.mesh.anchors[0]), test::kSettings.hmin, 1e-12);
+  ball.model.add_spots({{pole, kRadius, 1e-9}});
+  EXPECT_EQ(ball.model.size(ball.mesh.anchors[0]), test::kSettings.hmin);
 }
 
-TEST(SurfaceModel, DeviationIsTheWorstOfTheSamples) {
-  const auto ball = modelled_ball(8);
-  const PatchTree tree(ball.model);
-  for (std::size_t i = 0; i < ball.mesh.triangles.size(); i += 7) {
-    const Triangle& t = ball.mesh.triangles[i];
-    const std::array<Vec3, 3> k = {ball.mesh.points[t.v[0]], ball.mesh.points[t.v[1]],
-                                   ball.mesh.points[t.v[2]]};
-    const Anchor hints[3] = {ball.mesh.anchors[t.v[0]], ball.mesh.anchors[t.v[1]],
-                             ball.mesh.anchors[t.v[2]]};
-    double worst2 = tree.nearest((k[0] + k[1] + k[2]) / 3).place.distance2;
-    for (int e = 0; e < 3; ++e)
-      worst2 = std::max(worst2, tree.nearest((k[e] + k[(e + 1) % 3]) / 2).place.distance2);
-    EXPECT_NEAR(std::sqrt(ball.model.deviation2(k, t.patch, hints)), std::sqrt(worst2), 1e-5);
+/// A box of n x n x 1 cells, `thickness` high.
+MeshData plate(int n, double thickness) {
+  MeshData data = kuhn_cube(n);
+  std::erase_if(data.tets, [&](const auto& t) {
+    return std::any_of(t.begin(), t.end(), [&](int v) { return data.vertices[v].z > 1.5 / n; });
+  });
+  data.tet_refs.resize(data.tets.size());
+  for (Vec3& p : data.vertices) p.z *= n * thickness;
+  return data;
+}
+
+TEST(SurfaceModel, ThinWallsWantSizesOfTheirThickness) {
+  constexpr double kThick = 0.02;
+  const auto thin = modelled(build(plate(5, kThick)).mesh);
+  for (const Anchor& a : thin.mesh.anchors) {
+    EXPECT_LE(thin.model.size(a), 1.5 * kThick);
+    EXPECT_GE(thin.model.size(a), kThick);
   }
+  // No wall: the sides of a cube are farther from each other than the sizes that they want.
+  const auto thick = modelled_cube(3);
+  for (const Anchor& a : thick.mesh.anchors)
+    EXPECT_GE(thick.model.size(a), a.facet == kNone ? 0 : 1);
+}
+
+TEST(SurfaceModel, ToleranceKeepsSheetsApart) {
+  // Two cubes with a gap between them that is as wide as the tolerance.
+  constexpr double kGap = test::kSettings.tolerance;
+  MeshData data = kuhn_cube(2);
+  const MeshData other = data;
+  const auto shift = std::int32_t(data.vertices.size());
+  for (const Vec3& p : other.vertices) data.vertices.push_back(p + Vec3{1 + kGap, 0, 0});
+  data.vertex_refs.resize(data.vertices.size());
+  for (auto t : other.tets) {
+    for (auto& v : t) v += shift;
+    data.tets.push_back(t);
+  }
+  data.tet_refs.resize(data.tets.size());
+  const auto two = modelled(build(data).mesh);
+  for (const Triangle& t : two.mesh.triangles) {
+    bool at_gap = true;
+    for (VertexId v : t.v) at_gap &= std::abs(two.mesh.points[v].x - 1) < 2 * kGap;
+    const Anchor hints[3] = {two.mesh.anchors[t.v[0]], two.mesh.anchors[t.v[1]],
+                             two.mesh.anchors[t.v[2]]};
+    Vec3 middle{};
+    for (VertexId v : t.v) middle += two.mesh.points[v] / 3;
+    const double tolerance = two.model.tolerance(two.model.place(middle, t.patch, hints).anchor);
+    if (at_gap) {
+      EXPECT_LT(tolerance, kGap / 4);
+    } else {
+      EXPECT_FLOAT_EQ(float(tolerance), float(test::kSettings.tolerance));
+    }
+  }
+}
+
+TEST(SurfaceModel, TolerancesFollowReferences) {
+  TetMesh mesh = build(kuhn_cube(2)).mesh;
+  for (Triangle& t : mesh.triangles) t.ref = mesh.points[t.v[0]].z == 1 ? 7 : 3;
+  classify_features(mesh, {});
+  const std::pair<std::int32_t, double> other[] = {{7, 0.25}};
+  SurfaceModel::Settings settings = test::kSettings;
+  settings.tolerance_of_reference = other;
+  const SurfaceModel model(mesh, settings);
+  for (std::size_t f = 0; f < model.facets(); ++f)
+    EXPECT_FLOAT_EQ(float(model.hausd(std::int32_t(f))),
+                    mesh.triangles[f].ref == 7 ? 0.25f : float(settings.tolerance));
 }
 
 }  // namespace

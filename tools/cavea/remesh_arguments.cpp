@@ -14,6 +14,11 @@ void add_size_flags(CLI::App& command, RemeshArguments& arguments) {
   Options& options = arguments.options;
   command.add_option("--hausd", options.hausd,
                      "Largest distance to the ideal surface [0.001 of the box diagonal]");
+  CLI::Option* bulge = command.add_option(
+      "--max-bulge", options.max_bulge,
+      "Largest distance of the ideal surface from the input's triangles [3 hausd]");
+  command.add_flag("--faceted", options.faceted, "The input's triangles are the ideal surface")
+      ->excludes(bulge);
   command.add_option("--hmin", options.hmin, "Shortest wanted edge [0.001 of the box diagonal]");
   command.add_option("--hmax", options.hmax, "Longest wanted edge [0.1 of the box diagonal]");
   CLI::Option* uniform = command.add_option("--hsiz", options.hsiz, "One edge length everywhere");

@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+#include "cavea/mesh/tet_mesh.h"
+
+namespace cavea {
+
+/// Two triangles of the exterior boundary that pass through each other.
+struct Crossing {
+  TriangleId a, b;
+  Vec3 where;  ///< middle of an edge of one that passes through the other
+};
+
+/// All pairs of triangles of the exterior boundary of which an edge of one passes through the
+/// inside of the other, with a < b, sorted. Tets of positive volume cannot overlap but across the
+/// boundary, so without crossings the mesh is embedded. Triangles that only touch do not count.
+/// Decided by orientation(), so by the exact signs but for the flattest cases, which are touches.
+/// The same at any number of threads.
+std::vector<Crossing> find_crossings(const TetMesh& mesh);
+
+}  // namespace cavea

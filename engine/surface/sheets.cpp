@@ -1,0 +1,84 @@
+#include "cavea/surface/sheets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cavea/base/parallel.h"
+#include "cavea/geometry/closest.h"
+
+namespace cavea {
+namespace {
+
+constexpr std::size_t kGrain = 64;
+
+std::vector<Box> boxes_of(std::span<const Sheets::Corners> triangles) {
+  std::vector<Box> boxes(triangles.size());
+  parallel_for(boxes.size(), [&](std::size_t t) {
+    for (const Vec3& p : triangles[t]) boxes[t].add(p);
+  });
+  return boxes;
+}
+
+}  // namespace
+
+Sheets::Sheets(std::vector<Corners> triangles, std::vector<std::array<std::int32_t, 3>> vertices)
+    : triangles_(std::move(triangles)),
+      vertices_(std::move(vertices)),
+      normals_(triangles_.size()),
+      tree_(boxes_of(triangles_)) {
+  parallel_for(normals_.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = triangles_[t];
+    normals_[t] = normalized(cross(b - a, c - a));
+  });
+}
+
+bool Sheets::apart(std::size_t s, std::size_t t) const {
+  for (const std::int32_t v : vertices_[s])
+    if (std::find(vertices_[t].begin(), vertices_[t].end(), v) != vertices_[t].end()) return false;
+  return true;
+}
+
+void Sheets::improve(std::size_t t, const Vec3& place, const Facing& facing, Hit& hit) const {
+  const Vec3 way = facing.side * normals_[t];
+  tree_.visit_near(place, hit.distance2, [&](std::size_t slot) {
+    const auto s = std::size_t(tree_.order()[slot]);
+    if (dot(normals_[s], normals_[t]) > facing.normals_cosine || !apart(s, t)) return;
+    const auto& [a, b, c] = triangles_[s];
+    const ClosestOnTriangle near = closest_on_triangle(place, a, b, c);
+    if (!(near.distance2 < hit.distance2)) return;
+    const Vec3 to = a + near.u * (b - a) + near.v * (c - a) - place;
+    if (dot(to, way) >= facing.cone_cosine * norm(to)) hit = {std::int32_t(s), near.distance2};
+  });
+}
+
+double Sheets::opposite(std::size_t t, const Vec3& place, const Facing& facing,
+                        double reach) const {
+  Hit hit{-1, reach * reach};
+  improve(t, place, facing, hit);
+  return hit.triangle < 0 ? kNothing : std::sqrt(hit.distance2);
+}
+
+std::vector<double> Sheets::all_opposite(const Facing& facing,
+                                         const std::function<double(std::size_t)>& reach) const {
+  std::vector<Hit> hits(triangles_.size());
+  parallel_for(
+      hits.size(),
+      [&](std::size_t t) {
+        const double r = reach(t);
+        if (!(r > 0)) return;
+        const auto& [a, b, c] = triangles_[t];
+        hits[t].distance2 = r * r;
+        for (const Vec3& x : {a, b, c, (a + b + c) / 3}) improve(t, x, facing, hits[t]);
+      },
+      kGrain);
+  std::vector<double> nearest(hits.size(), kNothing);
+  for (std::size_t t = 0; t < hits.size(); ++t) {
+    if (hits[t].triangle < 0) continue;
+    const double d = std::sqrt(hits[t].distance2);
+    for (const std::size_t s : {t, std::size_t(hits[t].triangle)})
+      nearest[s] = std::min(nearest[s], d);
+  }
+  return nearest;
+}
+
+}  // namespace cavea

@@ -1,0 +1,53 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "cavea/geometry/box_tree.h"
+
+namespace cavea {
+
+/// The triangles of a surface as sheets that may come near each other: how far it is from one to
+/// the next through space, not along the surface. Read-only after construction: many threads may
+/// ask at once.
+class Sheets {
+ public:
+  using Corners = std::array<Vec3, 3>;
+
+  /// What stands opposite a triangle.
+  struct Facing {
+    double side = 1;            ///< 1: ahead, where its normal points; -1: behind
+    double cone_cosine = 0;     ///< of the angle between that way and the one to it, at least
+    double normals_cosine = 0;  ///< of the angle between the two normals, at most
+  };
+  static constexpr double kNothing = std::numeric_limits<double>::infinity();
+
+  /// \param vertices three ids each: triangles with a common one are never opposite each other
+  Sheets(std::vector<Corners> triangles, std::vector<std::array<std::int32_t, 3>> vertices);
+
+  /// Distance from a place on triangle t to the nearest sheet opposite; kNothing where that is not
+  /// less than `reach`.
+  double opposite(std::size_t t, const Vec3& place, const Facing& facing, double reach) const;
+
+  /// The same for each triangle, from its corners and its centroid. What is opposite another
+  /// triangle is as near to that one, whatever its own samples say. No reach, no question.
+  std::vector<double> all_opposite(const Facing& facing,
+                                   const std::function<double(std::size_t)>& reach) const;
+
+ private:
+  struct Hit {
+    std::int32_t triangle = -1;
+    double distance2 = kNothing;
+  };
+  void improve(std::size_t t, const Vec3& place, const Facing& facing, Hit& hit) const;
+  bool apart(std::size_t s, std::size_t t) const;
+
+  std::vector<Corners> triangles_;
+  std::vector<std::array<std::int32_t, 3>> vertices_;
+  std::vector<Vec3> normals_;
+  BoxTree tree_;
+};
+
+}  // namespace cavea

@@ -1,0 +1,217 @@
+// The sizes that a SurfaceModel wants: for the sake of curvature, thin walls and narrow features.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "cavea/base/parallel.h"
+#include "cavea/geometry/closest.h"
+#include "cavea/surface/surface_model.h"
+
+namespace cavea {
+namespace {
+
+/// Wanted size where a wall is only so thick, over that thickness: an edge across is then 0.7 sizes
+/// long and one along at most 1.4, so that one layer of good tets fits.
+constexpr double kThickness = 1.4;
+/// The same for strips between two feature curves and for short curves, where no edge but one that
+/// follows them fits.
+constexpr double kWidth = 1.2;
+/// Cosine of 15 degrees: sheets and curves side by side within that angle bound a layer or a strip.
+/// Where they run together in a sharper wedge, finer tets would be no better.
+constexpr double kParallel = 0.966;
+
+}  // namespace
+
+/// Largest principal curvature of the smooth fan at a corner: the second fundamental form that fits
+/// the normal curvatures 2 n.(q - p) / |q - p|^2 of the fan's edges best.
+double SurfaceModel::curvature_of_fan(std::int32_t facet, int corner,
+                                      std::vector<std::int32_t>& seen) const {
+  const std::int32_t v = facets_[facet][corner];
+  const Vec3 p = points_[v], n = normals_[facet][corner];
+  seen.clear();
+  auto add = [&](std::int32_t f) {
+    for (std::int32_t q : facets_[f])
+      if (q != v && std::find(seen.begin(), seen.end(), q) == seen.end()) seen.push_back(q);
+  };
+  add(facet);
+  for_fan(facet, corner, true, add);
+  const Vec3 helper = std::abs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 e1 = normalized(cross(n, helper)), e2 = cross(n, e1);
+  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double steepest = 0;
+  for (std::int32_t q : seen) {
+    const Vec3 d = points_[q] - p;
+    const double l2 = norm2(d);
+    if (!(l2 > 0)) continue;
+    const double kappa = 2 * dot(n, d) / l2;
+    const double x = dot(d, e1), y = dot(d, e2), r2 = x * x + y * y;
+    if (!(r2 > 0)) continue;
+    steepest = std::max(steepest, std::abs(kappa));
+    const Eigen::Vector3d row(x * x / r2, 2 * x * y / r2, y * y / r2);
+    normal_matrix += row * row.transpose();
+    right += kappa * row;
+  }
+  // Fewer than three independent directions leave the form undetermined: then the steepest edge.
+  constexpr double kIndependent = 1e-3;
+  const Eigen::LDLT<Eigen::Matrix3d> ldlt(normal_matrix);
+  if (seen.size() < 3 || !(ldlt.vectorD().minCoeff() > kIndependent)) return steepest;
+  const Eigen::Vector3d form = ldlt.solve(right);
+  const double mean = (form[0] + form[2]) / 2;
+  const double radius = std::hypot((form[0] - form[2]) / 2, form[1]);
+  return std::min(std::abs(mean) + radius, 2 * steepest);
+}
+
+/// h = sqrt(9 eps / (2 kappa)) at each vertex, smallest over its fans and its curve (paper, section
+/// 4.2); zero curvature gives hmax.
+void SurfaceModel::set_sizes() {
+  auto size_of = [&](std::size_t v, double kappa) {
+    const double tolerance = vertex_tolerance(std::int32_t(v));
+    const double h = kappa > 0 ? std::sqrt(4.5 * tolerance / kappa) : settings_.hmax;
+    return std::clamp(h, settings_.hmin, settings_.hmax);
+  };
+  sizes_.assign(points_.size(), settings_.hmax);
+  parallel_ranges(points_.size(), 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::int32_t> seen;
+    for (std::size_t v = begin; v < end; ++v) {
+      double kappa = 0;
+      for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i) {
+        const std::int32_t f = vertex_facets_[i];
+        const int corner = facets_[f][0] == std::int32_t(v)   ? 0
+                           : facets_[f][1] == std::int32_t(v) ? 1
+                                                              : 2;
+        kappa = std::max(kappa, curvature_of_fan(f, corner, seen));
+        if (vertex_curve_[v] == kNone) break;  // a single fan: all its facets give the same
+      }
+      sizes_[v] = size_of(v, kappa);
+    }
+  });
+  for (const CurveEdge& c : curves_)
+    for (int end = 0; end < 2; ++end) {
+      if (c.next[end] == kNone) continue;
+      const CurveEdge& n = curves_[c.next[end]];
+      const Vec3 p = points_[c.v[end]], a = points_[c.v[1 - end]],
+                 b = points_[n.v[0] == c.v[end] ? n.v[1] : n.v[0]];
+      const double product = distance(p, a) * distance(p, b) * distance(a, b);
+      const double kappa = product > 0 ? 2 * norm(cross(a - p, b - p)) / product : 0;
+      sizes_[c.v[end]] = std::min(sizes_[c.v[end]], size_of(std::size_t(c.v[end]), kappa));
+    }
+}
+
+/// Length of each feature curve from corner to corner, at all of its edges; closed curves have
+/// none.
+void SurfaceModel::set_chain_lengths() {
+  for (std::size_t first = 0; first < curves_.size(); ++first)
+    for (int end = 0; end < 2; ++end) {
+      if (curves_[first].next[end] != kNone || curves_[first].chain_length < kEndless) continue;
+      // From the end of the chain to its other end, then again to tell the length.
+      std::vector<std::int32_t> chain{std::int32_t(first)};
+      double length = 0;
+      for (int out = 1 - end;;) {
+        const CurveEdge& c = curves_[chain.back()];
+        length += distance(points_[c.v[0]], points_[c.v[1]]);
+        const std::int32_t next = c.next[out];
+        if (next == kNone) break;
+        out = curves_[next].v[0] == c.v[out] ? 1 : 0;
+        chain.push_back(next);
+      }
+      for (std::int32_t e : chain) curves_[e].chain_length = length;
+    }
+}
+
+double SurfaceModel::size(const Anchor& anchor) const {
+  if (anchor.facet == kNone) return settings_.hmax;
+  if (is_curve(anchor)) {
+    const CurveEdge& c = curves_[-2 - anchor.facet];
+    const double h = (1 - anchor.u) * sizes_[c.v[0]] + anchor.u * sizes_[c.v[1]];
+    const Vec3 place = c.curve.at(anchor.u);
+    return spot_size(place, size_on_curve(-2 - anchor.facet, place, h));
+  }
+  const auto& v = facets_[anchor.facet];
+  double h = (1 - double(anchor.u) - anchor.v) * sizes_[v[0]] + anchor.u * sizes_[v[1]] +
+             anchor.v * sizes_[v[2]];
+  if (const std::int32_t corner = corner_vertex(anchor); corner != kNone)
+    for_each_curve_at(corner, [&](std::int32_t e) { h = size_on_curve(e, points_[corner], h); });
+  const Vec3 place = patches_[anchor.facet].at(anchor.u, anchor.v);
+  return spot_size(place, thin_size(anchor.facet, place, h));
+}
+
+double SurfaceModel::size_on_curve(std::int32_t e, const Vec3& place, double size) const {
+  const CurveEdge& c = curves_[e];
+  size = narrow_size(e, place, std::min(size, kWidth * c.chain_length));
+  for (int i = 0; i < c.facet_count; ++i)
+    size = thin_size(curve_facets_[c.first_facet + i], place, size);
+  return std::max(size, settings_.hmin);
+}
+
+/// The size at a place of a facet, or less where the volume behind it is thin.
+double SurfaceModel::thin_size(std::int32_t facet, const Vec3& place, double size) const {
+  constexpr double kCone = 0.7;  // within 45 degrees of the normal
+  for (const double side : {-1.0, 1.0}) {
+    if (size <= settings_.hmin) break;
+    if (side > 0 && facet_exterior_[facet]) continue;
+    const Sheets::Facing facing{side, kCone, -kParallel};
+    const double t = sheets_->opposite(std::size_t(facet), place, facing, size / kThickness);
+    size = std::min(size, kThickness * t);
+  }
+  return std::max(size, settings_.hmin);
+}
+
+/// The size at a place of a feature curve, or less where another one runs beside it, along the same
+/// patch.
+double SurfaceModel::narrow_size(std::int32_t e, const Vec3& place, double size) const {
+  constexpr double kAcross = 0.5;  // more across than 60 degrees off the curve
+  if (size <= settings_.hmin) return settings_.hmin;
+  auto chord = [&](const CurveEdge& c) { return points_[c.v[1]] - points_[c.v[0]]; };
+  const auto& own = curves_[e].v;
+  const Vec3 along = normalized(chord(curves_[e]));
+  const double reach = size / kWidth;
+  double width2 = reach * reach;
+  curve_tree_->visit_near(place, width2, [&](std::size_t slot) {
+    const std::int32_t other = curve_tree_->order()[slot];
+    const CurveEdge& c = curves_[other];
+    const Vec3 d = chord(c);
+    if (std::abs(dot(d, along)) < kParallel * norm(d) || !share_patch(e, other)) return;
+    const bool adjacent =
+        c.v[0] == own[0] || c.v[0] == own[1] || c.v[1] == own[0] || c.v[1] == own[1];
+    const ClosestOnSegment near = closest_on_segment(place, points_[c.v[0]], points_[c.v[1]]);
+    if (adjacent || !(near.distance2 < width2)) return;
+    const Vec3 to = points_[c.v[0]] + near.t * d - place;
+    if (std::abs(dot(to, along)) <= kAcross * norm(to)) width2 = near.distance2;
+  });
+  return std::min(size, kWidth * std::sqrt(width2));
+}
+
+bool SurfaceModel::share_patch(std::int32_t a, std::int32_t b) const {
+  const CurveEdge &x = curves_[a], &y = curves_[b];
+  for (int i = 0; i < x.facet_count; ++i)
+    for (int j = 0; j < y.facet_count; ++j)
+      if (facet_patch_[curve_facets_[x.first_facet + i]] ==
+          facet_patch_[curve_facets_[y.first_facet + j]])
+        return true;
+  return false;
+}
+
+void SurfaceModel::add_spots(const std::vector<Spot>& spots) {
+  spots_.insert(spots_.end(), spots.begin(), spots.end());
+  std::vector<Box> boxes(spots_.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const double r = spots_[i].radius;
+    boxes[i].add(spots_[i].place + Vec3{r, r, r});
+    boxes[i].add(spots_[i].place - Vec3{r, r, r});
+  }
+  spot_tree_.emplace(boxes);
+}
+
+double SurfaceModel::spot_size(const Vec3& place, double size) const {
+  if (!spot_tree_) return size;
+  Box here;
+  here.add(place);
+  spot_tree_->visit_overlapping(here, [&](std::size_t slot) {
+    const Spot& s = spots_[std::size_t(spot_tree_->order()[slot])];
+    if (distance2(s.place, place) <= s.radius * s.radius) size = std::min(size, s.size);
+  });
+  return std::max(size, settings_.hmin);
+}
+
+}  // namespace cavea

@@ -1,0 +1,129 @@
+// How near the result's surface is to the input's triangles, and to the shape that they stand for.
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+
+#include "cavea/surface/crossings.h"
+#include "remesh/support.h"
+
+namespace cavea::test {
+namespace {
+
+/// Largest distance of the surface's edge midpoints and centroids from a shape.
+double farthest(const TetMesh& mesh, const std::function<double(const Vec3&)>& distance) {
+  double worst = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.points[t.v[0]], b = mesh.points[t.v[1]], c = mesh.points[t.v[2]];
+    for (const Vec3& x : {(a + b) / 2, (b + c) / 2, (c + a) / 2, (a + b + c) / 3})
+      worst = std::max(worst, std::abs(distance(x)));
+  }
+  return worst;
+}
+
+double to_sphere(const Vec3& p) { return norm(p) - 1; }
+
+double to_cylinder(const Vec3& p) {
+  const double side = std::hypot(p.x, p.y) - 1;
+  return std::min({std::abs(side), std::abs(p.z), std::abs(p.z - 2)});
+}
+
+/// The torus of radii 3 and 1 around the z axis.
+double to_torus(const Vec3& p) { return std::hypot(std::hypot(p.x, p.y) - 3, p.z) - 1; }
+
+/// Vertices at one place become one.
+MeshData merged(MeshData data) {
+  std::map<std::array<std::int64_t, 3>, std::int32_t> first;
+  std::vector<std::int32_t> id(data.vertices.size());
+  for (std::size_t v = 0; v < id.size(); ++v) {
+    const Vec3 p = 1e9 * data.vertices[v];
+    const std::array<std::int64_t, 3> key{std::llround(p.x), std::llround(p.y), std::llround(p.z)};
+    id[v] = first.emplace(key, std::int32_t(v)).first->second;
+  }
+  for (auto& t : data.tets)
+    for (auto& v : t) v = id[std::size_t(v)];
+  return data;
+}
+
+/// A square rod of n slices, rounded and bent into a ring.
+MeshData torus(int n) {
+  constexpr int kAcross = 4;
+  MeshData data = kuhn_grid(n, [&](int, int j, int k) { return j < kAcross && k < kAcross; });
+  const double width = double(kAcross) / n;
+  for (Vec3& p : data.vertices) {
+    const double x = 2 * p.y / width - 1, y = 2 * p.z / width - 1;
+    const double r = 3 + x * std::sqrt(1 - y * y / 2), z = y * std::sqrt(1 - x * x / 2);
+    const double angle = 2 * std::numbers::pi * p.x;
+    p = {r * std::cos(angle), r * std::sin(angle), z};
+  }
+  return merged(std::move(data));
+}
+
+void expect_closer(const MeshData& coarse, const std::function<double(const Vec3&)>& distance) {
+  TetMesh mesh = built(coarse);
+  const double before = farthest(mesh, distance);
+  Options options;
+  options.hausd = before / 10;
+  options.max_bulge = 2 * before;
+  const Report report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  for (const Target& t : report.targets) EXPECT_TRUE(t.met) << t.name << " " << t.measured;
+  EXPECT_LT(farthest(mesh, distance), before / 2);
+}
+
+TEST(Fidelity, SmoothModelIsCloserToTheShapeThanItsTriangles) {
+  expect_closer(ball(6), to_sphere);
+  expect_closer(cylinder(6), to_cylinder);
+  expect_closer(torus(24), to_torus);
+}
+
+TEST(Fidelity, FacetedResultsStayOnTheTriangles) {
+  for (const MeshData& coarse : {ball(4), cylinder(4), cylinder(9)}) {
+    TetMesh mesh = built(coarse);
+    Options options;
+    options.faceted = true;
+    const Report report = remesh(mesh, {}, options);
+    expect_sound(mesh);
+    EXPECT_TRUE(report.targets_met());
+    EXPECT_LT(report.bulge, 1e-12);
+    EXPECT_LE(report.surface_distance, report.hausd);
+    EXPECT_GE(report.after.quality.worst, 0.2);
+  }
+}
+
+TEST(Fidelity, BulgeStaysWithinItsBound) {
+  for (const double most : {0.0, 0.01, 0.05}) {
+    TetMesh mesh = built(ball(4));
+    Options options;
+    options.hausd = 0.01;
+    options.max_bulge = most;
+    const Report report = remesh(mesh, {}, options);
+    expect_sound(mesh);
+    EXPECT_LE(report.bulge, most + 1e-12);
+    EXPECT_GE(report.bulge, most / 3);
+  }
+}
+
+TEST(Fidelity, NearSheetsNeverCross) {
+  // A ball with a slit: two sheets that are nearer to each other than the tolerance.
+  for (const double gap : {0.02, 0.005, 0.001}) {
+    MeshData data = kuhn_grid(7, [](int i, int, int k) { return k != 3 || i == 0; });
+    for (Vec3& p : data.vertices) {
+      const double layer = std::round(7 * p.z);
+      p.z = layer <= 3 ? layer / 7 : 3.0 / 7 + gap + (layer - 4) / 7;
+      p.z += 0.1 * std::sin(3 * p.x) * std::cos(2 * p.y);
+    }
+    TetMesh mesh = built(data);
+    ASSERT_TRUE(find_crossings(mesh).empty());
+    Options options;
+    options.hausd = 0.02;
+    options.hmin = 0.05;
+    const Report report = remesh(mesh, {}, options);
+    expect_sound(mesh);
+    EXPECT_TRUE(find_crossings(mesh).empty()) << "gap " << gap;
+    EXPECT_LE(report.surface_distance, report.hausd);
+  }
+}
+
+}  // namespace
+}  // namespace cavea::test
