@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 
+#include "cavea/mesh/tet_mesh.h"
+
 namespace cavea {
 
 /// What progress() is told.
@@ -33,6 +35,9 @@ struct Options {
   /// The same from required entities outwards, whose own edges' lengths are imposed as sizes; >= 1.
   /// None: they impose nothing. The default is mmg3d's.
   std::optional<double> hgradreq = 2.3;
+  /// The mesh whose surface is the input's truth in place of its own: an earlier one, so that a
+  /// loop does not drift. Read during remesh() only; may be the mesh that is remeshed.
+  const TetMesh* surface = nullptr;
   double angle = 45;  ///< degrees between normals above which an edge is a ridge
   bool detect_ridges = true;
 

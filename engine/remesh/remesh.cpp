@@ -17,6 +17,7 @@
 #include "cavea/remesh/bulk.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/resolved.h"
+#include "cavea/surface/attach.h"
 #include "cavea/surface/crossings.h"
 #include "cavea/surface/distance.h"
 #include "cavea/surface/features.h"
@@ -79,12 +80,24 @@ class Run {
   void analyse() {
     report_.before.counts = count(mesh_);
     report_.before.quality = quality_statistics(mesh_);
-    classify_features(mesh_, feature_options());
-    surface_.emplace(mesh_, SurfaceModel::Settings{r_.hausd, r_.max_bulge, r_.hmin, r_.hmax});
+    take_surface();
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
     sizes_vary_ = !r_.uniform() || (r_.hgradreq && !required_sizes(mesh_).empty());
     resize();
     report_.before.lengths = length_statistics(mesh_);
+  }
+
+  void take_surface() {
+    const SurfaceModel::Settings settings{r_.hausd, r_.max_bulge, r_.hmin, r_.hmax};
+    if (!options_.surface) {
+      classify_features(mesh_, feature_options());
+      surface_.emplace(mesh_, settings);
+      return;
+    }
+    TetMesh truth = *options_.surface;
+    classify_features(truth, feature_options());
+    surface_.emplace(truth, settings);
+    attach_to(mesh_, *surface_, feature_options(), r_.hausd);
   }
 
   FeatureOptions feature_options() const {
@@ -92,7 +105,8 @@ class Run {
     // height w meet at a, h = sqrt(4.5 hausd w / a). Beyond a w = 3 hausd the sag is too large:
     // then edges must follow the fold, and w is no less than about h, so that they can.
     constexpr double kFold = 3;
-    FeatureOptions o{options_.angle, options_.detect_ridges};
+    FeatureOptions o;
+    o.angle = options_.angle, o.detect_ridges = options_.detect_ridges;
     if (options_.faceted) o.crease = kFold * r_.hausd;
     return o;
   }

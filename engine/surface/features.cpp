@@ -102,7 +102,9 @@ Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end,
 void tag_edges(TetMesh& m, const std::vector<EdgeSide>& sides, const FeatureOptions& options) {
   const Sharpness sharpness(options);
   for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
-    const Tag tags = edge_tags(m, begin, end, sharpness);
+    Tag tags = edge_tags(m, begin, end, sharpness);
+    if ((tags & tag::kRidge) && options.may_be_ridge && !options.may_be_ridge(begin->a, begin->b))
+      tags &= Tag(~tag::kRidge);
     std::int32_t ref = 0;
     for (const EdgeSide* s = begin; s != end; ++s) {
       const std::int32_t r = m.triangles[s->triangle].edge_ref[s->k];

@@ -163,6 +163,28 @@ Vec3 SurfaceModel::normal(const Anchor& anchor, int patch) const {
   return normalized(n);
 }
 
+std::optional<Anchor> SurfaceModel::corner_near(const Vec3& place, double reach) const {
+  Box box;
+  box.add(place + Vec3{reach, reach, reach});
+  box.add(place - Vec3{reach, reach, reach});
+  std::optional<Anchor> best;
+  double best2 = reach * reach;
+  curve_tree_->visit_overlapping(box, [&](std::size_t slot) {
+    for (const std::int32_t v : curves_[curve_tree_->order()[slot]].v) {
+      const double d2 = distance2(points_[v], place);
+      if (!vertex_corner_[v] || d2 > best2) continue;
+      best = anchor_of(v), best2 = d2;
+    }
+  });
+  return best;
+}
+
+/// The anchor of a vertex of the snapshot on one of its facets.
+Anchor SurfaceModel::anchor_of(std::int32_t v) const {
+  const std::int32_t f = vertex_facets_[vertex_first_[v]];
+  return {f, facets_[f][1] == v ? 1.0f : 0.0f, facets_[f][2] == v ? 1.0f : 0.0f};
+}
+
 double SurfaceModel::tolerance(const Anchor& anchor) const {
   if (anchor.facet == kNone) return settings_.tolerance;
   if (!is_curve(anchor)) return facet_tolerance_[anchor.facet];

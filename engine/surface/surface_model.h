@@ -62,6 +62,12 @@ class SurfaceModel {
   double size(const Anchor& anchor) const;
 
   std::size_t facets() const { return facets_.size(); }
+  std::size_t curve_edges() const { return curves_.size(); }
+  std::array<Vec3, 2> curve_ends(std::int32_t e) const {
+    return {points_[curves_[e].v[0]], points_[curves_[e].v[1]]};
+  }
+  /// The anchor of the corner nearest to a place, if one is within reach.
+  std::optional<Anchor> corner_near(const Vec3& place, double reach) const;
   int patch_number(std::int32_t f) const { return facet_patch_[f]; }
   const BezierTriangle& patch_of_facet(std::int32_t f) const { return patches_[f]; }
   std::array<Vec3, 3> facet_corners(std::int32_t f) const {
@@ -120,6 +126,7 @@ class SurfaceModel {
   std::array<Vec3, 2> edge_controls(std::int32_t facet, int k) const;
 
   std::int32_t corner_vertex(const Anchor& a) const;
+  Anchor anchor_of(std::int32_t v) const;
   WalkResult walk(const Vec3& guess, std::int32_t start) const;
   template <class F>
   void for_each_start(const Anchor& anchor, int patch, F&& f) const;

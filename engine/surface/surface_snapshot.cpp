@@ -229,8 +229,7 @@ void SurfaceModel::set_anchors(TetMesh& mesh) const {
       mesh.anchors[v] = {curve_anchor(e), curves_[e].v[0] == s ? 0.0f : 1.0f, 0};
       continue;
     }
-    const std::int32_t f = vertex_facets_[vertex_first_[s]];
-    mesh.anchors[v] = {f, facets_[f][1] == s ? 1.0f : 0.0f, facets_[f][2] == s ? 1.0f : 0.0f};
+    mesh.anchors[v] = anchor_of(s);
   }
 }
 

@@ -91,6 +91,26 @@ TEST(Fidelity, FacetedResultsStayOnTheTriangles) {
   }
 }
 
+TEST(Fidelity, LoopOnTheFirstSurfaceDoesNotDrift) {
+  for (const MeshData& start : {ball(6), cylinder(6)}) {
+    const TetMesh truth = built(start);
+    TetMesh mesh = truth;
+    double volume = 0;
+    for (int step = 0; step < 6; ++step) {
+      Options options;
+      options.hausd = 0.02;
+      options.hmax = step % 2 ? 0.5 : 0.3;
+      options.surface = &truth;
+      const Report report = remesh(mesh, {}, options);
+      expect_sound(mesh);
+      EXPECT_LE(report.surface_distance, report.hausd) << "step " << step;
+      EXPECT_EQ(report.after.counts.boundary_components, 1);
+      if (step == 0) volume = report.after.counts.volume;
+      EXPECT_NEAR(report.after.counts.volume, volume, 0.01 * volume) << "step " << step;
+    }
+  }
+}
+
 TEST(Fidelity, BulgeStaysWithinItsBound) {
   for (const double most : {0.0, 0.01, 0.05}) {
     TetMesh mesh = built(ball(4));

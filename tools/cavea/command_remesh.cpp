@@ -29,6 +29,7 @@ void check_names(const RemeshArguments& arguments) {
   if (!arguments.report.empty()) outputs.push_back({"--report", arguments.report});
   std::vector<NamedFile> inputs = {{"the input", arguments.input}};
   if (!arguments.sizes.empty()) inputs.push_back({"the file of --sol", arguments.sizes});
+  if (!arguments.surface.empty()) inputs.push_back({"the file of --surface", arguments.surface});
   check_outputs(inputs, outputs);
 }
 
@@ -63,6 +64,13 @@ RunReport remesh_file(const RemeshArguments& arguments, Options options,
                       const Interrupt& interrupt) {
   Timer timer;
   LoadedMesh loaded = load_mesh(arguments.input, arguments.sizes);
+  LoadedMesh surface;
+  if (!arguments.surface.empty()) {
+    surface = load_mesh(arguments.surface, {});
+    options.surface = &surface.mesh;
+    for (const std::string& text : surface.warnings)
+      loaded.warnings.push_back(arguments.surface + ": " + text);
+  }
   const double read_seconds = timer.seconds();
   options.cancel = interrupt.flag();
   const SizeField field = field_of(arguments, loaded.mesh);

@@ -19,6 +19,8 @@ void add_size_flags(CLI::App& command, RemeshArguments& arguments) {
       "Largest distance of the ideal surface from the input's triangles [3 hausd]");
   command.add_flag("--faceted", options.faceted, "The input's triangles are the ideal surface")
       ->excludes(bulge);
+  command.add_option("--surface", arguments.surface,
+                     "Mesh whose surface is the truth in place of that of IN");
   command.add_option("--hmin", options.hmin, "Shortest wanted edge [0.001 of the box diagonal]");
   command.add_option("--hmax", options.hmax, "Longest wanted edge [0.1 of the box diagonal]");
   CLI::Option* uniform = command.add_option("--hsiz", options.hsiz, "One edge length everywhere");

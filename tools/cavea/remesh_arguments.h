@@ -13,9 +13,10 @@ namespace cavea::program {
 struct RemeshArguments {
   std::string input;
   std::vector<std::string> outputs;
-  std::string sizes;   ///< file of sizes; empty: none
-  std::string report;  ///< empty: none
-  Options options;     ///< without threads, progress and cancel
+  std::string sizes;    ///< file of sizes; empty: none
+  std::string surface;  ///< file of the mesh whose surface is the truth; empty: the input
+  std::string report;   ///< empty: none
+  Options options;      ///< without threads, progress and cancel
   std::optional<int> threads;
   bool no_angle = false, no_hgrad = false, no_hgradreq = false;
   bool verbose = false, quiet = false;

@@ -1,0 +1,158 @@
+#include "cavea/surface/attach.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "cavea/base/parallel.h"
+#include "cavea/geometry/box_tree.h"
+#include "cavea/geometry/closest.h"
+
+namespace cavea {
+namespace {
+
+/// Vertices farther than this share of the tolerance from the model are to be moved onto it.
+constexpr double kOnSurface = 0.05;
+
+class Attachment {
+ public:
+  Attachment(TetMesh& mesh, const SurfaceModel& model, double tolerance)
+      : mesh_(mesh),
+        model_(model),
+        tolerance_(tolerance),
+        facets_(facet_boxes(model)),
+        curves_(curve_boxes(model)) {}
+
+  /// Whether a feature curve of the model runs along an edge.
+  bool on_curve(VertexId a, VertexId b) const {
+    // An earlier result has its ridges within the tolerance; a chord as long as sizes allow sags by
+    // another one.
+    constexpr double kNear = 2, kAlong = 0.8;
+    const Vec3 p = mesh_.points[a], q = mesh_.points[b];
+    const auto near = nearest_curve((p + q) / 2, kNear * tolerance_);
+    if (!near) return false;
+    const auto [s, t] = model_.curve_ends(near->edge);
+    return std::abs(dot(t - s, q - p)) >= kAlong * norm(t - s) * norm(q - p);
+  }
+
+  void run(int patches) {
+    take_patches(patches);
+    std::vector<std::int32_t> patch(mesh_.points.size(), kNone);
+    for (const Triangle& t : mesh_.triangles)
+      if (t.alive())
+        for (VertexId v : t.v) patch[v] = t.patch;
+    parallel_for(mesh_.points.size(), [&](std::size_t v) {
+      mesh_.anchors[v] = {};
+      if (patch[v] != kNone) anchor(VertexId(v), patch[v]);
+    });
+  }
+
+ private:
+  struct OnCurve {
+    std::int32_t edge;
+    double t, distance2;
+  };
+
+  static std::vector<Box> facet_boxes(const SurfaceModel& model) {
+    std::vector<Box> boxes(model.facets());
+    for (std::size_t f = 0; f < boxes.size(); ++f)
+      for (const Vec3& p : model.facet_corners(std::int32_t(f))) boxes[f].add(p);
+    return boxes;
+  }
+  static std::vector<Box> curve_boxes(const SurfaceModel& model) {
+    std::vector<Box> boxes(model.curve_edges());
+    for (std::size_t e = 0; e < boxes.size(); ++e)
+      for (const Vec3& p : model.curve_ends(std::int32_t(e))) boxes[e].add(p);
+    return boxes;
+  }
+
+  std::optional<OnCurve> nearest_curve(const Vec3& p, double reach) const {
+    std::optional<OnCurve> best;
+    double bound2 = reach * reach;
+    curves_.visit_near(p, bound2, [&](std::size_t slot) {
+      const std::int32_t e = curves_.order()[slot];
+      const auto [a, b] = model_.curve_ends(e);
+      const ClosestOnSegment c = closest_on_segment(p, a, b);
+      if (c.distance2 < bound2) best = {e, c.t, c.distance2}, bound2 = c.distance2;
+    });
+    return best;
+  }
+
+  /// The nearest facet that `accept` takes.
+  template <class Accept>
+  Anchor nearest_facet(const Vec3& p, Accept&& accept) const {
+    Anchor best;
+    double bound2 = std::numeric_limits<double>::infinity();
+    facets_.visit_near(p, bound2, [&](std::size_t slot) {
+      const std::int32_t f = facets_.order()[slot];
+      if (!accept(f)) return;
+      const auto [a, b, c] = model_.facet_corners(f);
+      const ClosestOnTriangle r = closest_on_triangle(p, a, b, c);
+      if (r.distance2 < bound2) best = {f, float(r.u), float(r.v)}, bound2 = r.distance2;
+    });
+    return best;
+  }
+
+  /// The patch of the model that most of each piece of the surface lies on.
+  void take_patches(int pieces) {
+    std::vector<std::map<int, double>> votes(static_cast<std::size_t>(pieces));
+    for (const Triangle& t : mesh_.triangles) {
+      if (!t.alive()) continue;
+      const Vec3 a = mesh_.points[t.v[0]], b = mesh_.points[t.v[1]], c = mesh_.points[t.v[2]];
+      const Vec3 normal = cross(b - a, c - a);
+      const Anchor near = nearest_facet((a + b + c) / 3, [&](std::int32_t f) {
+        const auto [x, y, z] = model_.facet_corners(f);
+        return dot(cross(y - x, z - x), normal) > 0;  // not the other side of a thin wall
+      });
+      if (near.facet != kNone)
+        votes[std::size_t(t.patch)][model_.patch_number(near.facet)] += norm(normal);
+    }
+    for (Triangle& t : mesh_.triangles) {
+      if (!t.alive()) continue;
+      const auto& v = votes[std::size_t(t.patch)];
+      const auto most = std::max_element(
+          v.begin(), v.end(), [](const auto& x, const auto& y) { return x.second < y.second; });
+      if (most != v.end()) t.patch = most->first;
+    }
+  }
+
+  void anchor(VertexId v, int patch) {
+    constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
+    const Vec3 p = mesh_.points[v];
+    Tag& tags = mesh_.vertex_tags[v];
+    const double reach = std::numeric_limits<double>::infinity();
+    Anchor& anchor = mesh_.anchors[v];
+    if ((tags & kOnCurve) && !(tags & tag::kCorner)) {
+      if (const auto near = nearest_curve(p, reach))
+        anchor = {SurfaceModel::curve_anchor(near->edge), float(near->t), 0};
+    } else if (const auto corner = model_.corner_near(p, kOnSurface * tolerance_)) {
+      anchor = *corner;
+    }
+    if (anchor.facet == kNone)
+      anchor = nearest_facet(p, [&](std::int32_t f) { return model_.patch_number(f) == patch; });
+    if (tags & (tag::kCorner | tag::kRequired)) return;
+    const Anchor hints[1] = {anchor};
+    const SurfacePoint at =
+        (tags & kOnCurve) ? model_.place_on_curve(p, hints) : model_.place(p, patch, hints);
+    const double limit = kOnSurface * tolerance_;
+    if (at.anchor.facet != kNone && at.distance2 > limit * limit) tags |= tag::kOffSurface;
+  }
+
+  TetMesh& mesh_;
+  const SurfaceModel& model_;
+  const double tolerance_;
+  BoxTree facets_, curves_;
+};
+
+}  // namespace
+
+void attach_to(TetMesh& mesh, const SurfaceModel& model, const FeatureOptions& options,
+               double tolerance) {
+  Attachment attachment(mesh, model, tolerance);
+  FeatureOptions along = options;
+  along.crease = std::numeric_limits<double>::infinity();
+  along.may_be_ridge = [&](VertexId a, VertexId b) { return attachment.on_curve(a, b); };
+  attachment.run(classify_features(mesh, along));
+}
+
+}  // namespace cavea

@@ -1,0 +1,16 @@
+#pragma once
+#include "cavea/mesh/tet_mesh.h"
+#include "cavea/surface/features.h"
+#include "cavea/surface/surface_model.h"
+
+namespace cavea {
+
+/// Classifies the surface of a mesh after the model of another mesh's surface, its truth: ridges
+/// are kept and detected only along the model's feature curves; the triangles take the patches of
+/// the model, by majority of area over each piece between feature edges; vertices get their anchors
+/// on it, and those that are not on the ideal surface kOffSurface. Corners and required vertices
+/// stay where they are. \param tolerance hausd
+void attach_to(TetMesh& mesh, const SurfaceModel& model, const FeatureOptions& options,
+               double tolerance);
+
+}  // namespace cavea
