@@ -10,6 +10,11 @@ namespace cavea {
 /// gives 2).
 inline constexpr double kQualityFactor = 124.70765814495915;
 
+/// The smallest quality that counts as a tet at all. One that is above is certainly positive: six
+/// times its volume is at least 4e-8 of (sum of squared edges)^(3/2), which bounds the permanent of
+/// orient3d, and so tens of millions of times the rounding error (certainly_positive()).
+inline constexpr double kFlat = 1e-6;
+
 /// The paper's quality of a tetrahedron (section 2): alpha Vol / (sum of squared edges)^(3/2).
 /// 1 for a regular one, 0 for a flat one, negative for an inverted one.
 inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {

@@ -25,6 +25,8 @@ std::size_t equal_bin(double x, double top, std::size_t bins) {
   return std::min(bins - 1, std::size_t(x / top * double(bins)));
 }
 
+Vec3 centroid(const std::array<Vec3, 4>& p) { return 0.25 * (p[0] + p[1] + p[2] + p[3]); }
+
 struct QualitySum {
   QualityStatistics result;
   double sum = 0;
@@ -40,6 +42,7 @@ struct QualitySum {
     ++tets;
     sum += quality;
     ++result.histogram[equal_bin(quality, 1, result.histogram.size())];
+    if (quality <= kFlat) result.flat.push_back({t, centroid(p)});
     if (quality < result.worst) {
       result.worst = quality;
       result.worst_tet = t;
@@ -56,6 +59,7 @@ struct QualitySum {
     const QualityStatistics& b = next.result;
     a.sum += next.sum;
     a.tets += next.tets;
+    a.result.flat.insert(a.result.flat.end(), b.flat.begin(), b.flat.end());
     add(a.result.histogram, b.histogram);
     add(a.result.dihedral_histogram, b.dihedral_histogram);
     if (b.worst < a.result.worst) {
@@ -133,8 +137,7 @@ QualityStatistics quality_statistics(const TetMesh& mesh) {
   if (total.tets == 0) return {};
   QualityStatistics out = total.result;
   out.mean = total.sum / double(total.tets);
-  const auto p = mesh.corners(out.worst_tet);
-  out.worst_place = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+  out.worst_place = centroid(mesh.corners(out.worst_tet));
   return out;
 }
 

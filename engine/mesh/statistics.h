@@ -12,10 +12,17 @@ namespace cavea {
 inline constexpr std::array<double, 8> kLengthBins = {0.3, 0.6,        0.70710678, 0.9,
                                                       1.3, 1.41421356, 2,          5};
 
+/// A tet of no volume, or of next to none.
+struct FlatTet {
+  TetId tet = kNone;
+  Vec3 place;  ///< centroid
+};
+
 struct QualityStatistics {
   double worst = 0, mean = 0;
   TetId worst_tet = kNone;
   Vec3 worst_place;                          ///< centroid of the worst tet
+  std::vector<FlatTet> flat;                 ///< of quality at or below kFlat, by rising id
   std::array<std::int64_t, 10> histogram{};  ///< ten bins from 0 to 1; below 0 counts as 0
   double smallest_dihedral = 0, largest_dihedral = 0;  ///< degrees
   std::array<std::int64_t, 18>

@@ -67,11 +67,6 @@ struct OperatorContext {
   }
 };
 
-/// The smallest quality that counts as a tet at all. One that is above is certainly positive: six
-/// times its volume is at least 4e-8 of (sum of squared edges)^(3/2), which bounds the permanent of
-/// orient3d, and so tens of millions of times the rounding error (certainly_positive()).
-inline constexpr double kFlat = 1e-6;
-
 /// An operation for the sake of quality must raise the worst quality of its cavity by at least this
 /// factor; smaller gains would let operations go to and fro.
 inline constexpr double kQualityGain = 1.02;

@@ -194,6 +194,8 @@ class Run {
     };
     add("worst quality", options_.min_quality, q.worst, q.worst >= options_.min_quality,
         q.worst_place);
+    add("flat tetrahedra", 0, double(q.flat.size()), q.flat.empty(),
+        q.flat.empty() ? Vec3{} : q.flat.front().place);
     add("conforming lengths", options_.min_conform, l.conforming_percent(),
         l.conforming_percent() >= options_.min_conform, l.longest_place);
     const OneSidedDistance& d = distance_.worse();

@@ -22,7 +22,9 @@ struct PhaseTime {
 
 /// A goal of the run, and whether it was met.
 struct Target {
-  std::string name;  ///< "worst quality", "conforming lengths", "surface distance"
+  /// "worst quality", "flat tetrahedra", "conforming lengths", "surface distance" or "surface
+  /// crossings"
+  std::string name;
   double wanted = 0, measured = 0;
   bool met = true;
   std::string where;  ///< place of the worst offender, when missed

@@ -57,6 +57,19 @@ TEST(QualityStatistics, FindTheWorstTetAndSkipHoles) {
   EXPECT_EQ(quality_statistics(mesh).worst_tet, kNone);
 }
 
+TEST(QualityStatistics, NameEveryFlatTet) {
+  const MeshData data = test::cube_with_flat_tets(5, true);
+  const TetMesh mesh = build(data).mesh;
+  const QualityStatistics q = quality_statistics(mesh);
+  ASSERT_EQ(q.flat.size(), 16u);
+  for (std::size_t i = 0; i < q.flat.size(); ++i) {
+    EXPECT_EQ(q.flat[i].tet, data.required_tets[i]);
+    const auto p = mesh.corners(q.flat[i].tet);
+    EXPECT_NEAR(distance(q.flat[i].place, (p[0] + p[1] + p[2] + p[3]) / 4), 0, 1e-15);
+  }
+  EXPECT_TRUE(quality_statistics(build(test::kuhn_cube(5)).mesh).flat.empty());
+}
+
 TEST(LengthStatistics, CountEachEdgeOnce) {
   MeshData data = test::polycube(4, 0.6, 17);
   TetMesh mesh = build(test::shuffled(data, 17)).mesh;

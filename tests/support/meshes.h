@@ -118,6 +118,26 @@ inline void perturb_inside(MeshData& data, double amplitude, std::uint64_t seed)
   }
 }
 
+/// kuhn_cube(n), n odd, in which every second interior vertex along each axis lies in a face of its
+/// ball: two tets at each of them have no volume, exactly. They are required where `required`.
+inline MeshData cube_with_flat_tets(int n, bool required) {
+  MeshData data = kuhn_cube(n);
+  for (Vec3& p : data.vertices) {
+    const auto at = [&](double x) { return int(std::lround(x * n)); };
+    if (at(p.x) % 2 == 0 || at(p.y) % 2 == 0 || at(p.z) % 2 == 0) continue;
+    if (at(p.x) == n || at(p.y) == n || at(p.z) == n) continue;
+    p = {double(at(p.x) + 1) / n, p.y + 0.6 / n, p.z + 0.3 / n};
+  }
+  const auto in_plane = [&](const std::array<std::int32_t, 4>& t) {
+    for (int k = 1; k < 4; ++k)
+      if (data.vertices[t[k]].x != data.vertices[t[0]].x) return false;
+    return true;
+  };
+  for (std::size_t t = 0; required && t < data.tets.size(); ++t)
+    if (in_plane(data.tets[t])) data.required_tets.push_back(std::int32_t(t));
+  return data;
+}
+
 /// Gives each tet the reference ref_of(centroid).
 template <class RefOf>
 void set_refs(MeshData& data, RefOf&& ref_of) {

@@ -3,7 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cavea/io/formats.h"
 #include "run_program.h"
+#include "support/meshes.h"
 
 namespace cavea::test {
 namespace {
@@ -58,6 +60,39 @@ TEST_F(RunTest, MissedTargetIsStatusOneAndNamed) {
   EXPECT_EQ(cavea({"info", "out.mesh"}).status, 0) << "a valid mesh is written all the same";
 }
 
+TEST_F(RunTest, NamesEveryFlatTetThatIsLeft) {
+  // 54 of no volume that must stay as they are; no other target forbids them.
+  write_mesh(file("in.meshb"), cube_with_flat_tets(7, true));
+  const Outcome outcome = cavea({"remesh", "in.meshb", "-o", "out.meshb", "--report", "report.json",
+                                 "--min-quality", "0", "--min-conform", "0", "--quiet"});
+  EXPECT_EQ(outcome.status, 1);
+  const Json quality = read_json("report.json")["after"]["quality"];
+  EXPECT_EQ(quality["worst"], 0);
+  const MeshData out = read_mesh(file("out.meshb"), nullptr);
+  std::set<std::int32_t> named;
+  for (const Json& flat : quality["flat_tets"]) named.insert(flat["tet"].get<std::int32_t>() - 1);
+  EXPECT_EQ(named, std::set(out.required_tets.begin(), out.required_tets.end()));
+  EXPECT_EQ(named.size(), 54u);
+
+  EXPECT_NE(outcome.err.find("target missed: flat tetrahedra: 54"), std::string::npos);
+  std::size_t lines = 0;
+  for (auto at = outcome.err.find("flat: tetrahedron"); at != std::string::npos;
+       at = outcome.err.find("flat: tetrahedron", at + 1))
+    ++lines;
+  EXPECT_EQ(lines, 20u) << outcome.err;
+  EXPECT_NE(outcome.err.find("and 34 more"), std::string::npos) << outcome.err;
+}
+
+TEST_F(RunTest, RidsTheInputOfFlatTets) {
+  write_mesh(file("in.meshb"), cube_with_flat_tets(7, false));
+  const Outcome outcome =
+      cavea({"remesh", "in.meshb", "-o", "out.meshb", "--report", "report.json", "--quiet"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const Json report = read_json("report.json");
+  EXPECT_EQ(report["before"]["quality"]["flat_tets"].size(), 54u);
+  EXPECT_TRUE(report["after"]["quality"]["flat_tets"].empty());
+}
+
 TEST_F(RunTest, QuietPrintsNothing) {
   const Outcome outcome = cavea({"remesh", kSample, "-o", "out.mesh", "--quiet"});
   EXPECT_EQ(outcome.status, 0);
@@ -96,7 +131,7 @@ TEST_F(RunTest, ReportHoldsWhatTheDocumentationPromises) {
   EXPECT_FALSE(report["phases"].empty());
   EXPECT_FALSE(report["verdicts"].empty());
   EXPECT_TRUE(report["targets_met"]);
-  EXPECT_EQ(report["targets"].size(), 3u);
+  EXPECT_EQ(report["targets"].size(), 5u);
   EXPECT_GE(report["surface_distance"], 0);
   EXPECT_GE(report["bulge"], 0);
   EXPECT_TRUE(report["warnings"].is_array());

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "run_report.h"
 #include "summary_text.h"
 #include "text_table.h"
@@ -75,13 +77,32 @@ std::string to_text(const RunReport& run, bool verbose) {
   return fmt::format("{}", fmt::join(blocks, "\n"));
 }
 
+namespace {
+
+/// More than these are counted on standard error; the JSON report names all.
+constexpr std::size_t kMostNamed = 20;
+
+std::string flat_text(const std::vector<FlatTet>& flat) {
+  std::string out;
+  for (std::size_t i = 0; i < std::min(flat.size(), kMostNamed); ++i) {
+    const auto& [x, y, z] = flat[i].place;
+    out += fmt::format("cavea: flat: tetrahedron {} of the output, at ({:.6g}, {:.6g}, {:.6g})\n",
+                       flat[i].tet + 1, x, y, z);
+  }
+  if (flat.size() > kMostNamed)
+    out += fmt::format("cavea: flat: and {} more; --report names all\n", flat.size() - kMostNamed);
+  return out;
+}
+
+}  // namespace
+
 std::string missed_text(const Report& report) {
   std::string out;
   for (const Target& t : report.targets)
     if (!t.met)
       out += fmt::format("cavea: target missed: {}: {:.4g}, wanted {:.4g}{}{}\n", t.name,
                          t.measured, t.wanted, t.where.empty() ? "" : ", at ", t.where);
-  return out;
+  return out + flat_text(report.after.quality.flat);
 }
 
 }  // namespace cavea::program

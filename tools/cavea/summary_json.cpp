@@ -30,10 +30,18 @@ Json to_json(const Counts& counts) {
           {"triangle_references", triangle_refs}};
 }
 
+/// Tets are named as in a file, from one.
+Json to_json(const std::vector<FlatTet>& flat) {
+  Json tets = Json::array();
+  for (const FlatTet& f : flat) tets.push_back({{"tet", f.tet + 1}, {"place", to_json(f.place)}});
+  return tets;
+}
+
 Json to_json(const QualityStatistics& quality) {
   return {{"worst", quality.worst},
           {"mean", quality.mean},
           {"worst_place", to_json(quality.worst_place)},
+          {"flat_tets", to_json(quality.flat)},
           {"histogram", quality.histogram}};
 }
 
