@@ -11,6 +11,11 @@ namespace {
 
 constexpr std::size_t kGrain = 256;
 
+/// Sign of the volume of (a, b, c, d), 0 where rounding leaves it open.
+int side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return certainly_positive(a, b, c, d) ? 1 : certainly_positive(b, a, c, d) ? -1 : 0;
+}
+
 class Boundary {
  public:
   explicit Boundary(const TetMesh& mesh) : mesh_(mesh) {
@@ -63,11 +68,11 @@ class Boundary {
     for (VertexId v : t.v)
       if (v == p || v == q) return false;
     const auto& [a, b, c] = t.v;
-    const int above = orientation(x[a], x[b], x[c], x[p]);
-    if (above == 0 || orientation(x[a], x[b], x[c], x[q]) != -above) return false;
-    const int turn = orientation(x[p], x[q], x[a], x[b]);
-    return turn != 0 && orientation(x[p], x[q], x[b], x[c]) == turn &&
-           orientation(x[p], x[q], x[c], x[a]) == turn;
+    const int above = side(x[a], x[b], x[c], x[p]);
+    if (above == 0 || side(x[a], x[b], x[c], x[q]) != -above) return false;
+    const int turn = side(x[p], x[q], x[a], x[b]);
+    return turn != 0 && side(x[p], x[q], x[b], x[c]) == turn &&
+           side(x[p], x[q], x[c], x[a]) == turn;
   }
 
   const TetMesh& mesh_;

@@ -14,7 +14,7 @@ struct Crossing {
 /// All pairs of triangles of the exterior boundary of which an edge of one passes through the
 /// inside of the other, with a < b, sorted. Tets of positive volume cannot overlap but across the
 /// boundary, so without crossings the mesh is embedded. Triangles that only touch do not count.
-/// Decided by orientation(), so by the exact signs but for the flattest cases, which are touches.
+/// What rounding leaves open counts as touching, too.
 /// The same at any number of threads.
 std::vector<Crossing> find_crossings(const TetMesh& mesh);
 

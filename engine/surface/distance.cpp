@@ -55,26 +55,40 @@ struct Sampled {
   }
 };
 
+/// How closely triangles are sampled: see measure_surface_distance().
+struct Sampling {
+  double step, enough = 0;
+
+  int intervals(const Corners& k) const {
+    const double wanted = std::ceil(std::sqrt(longest_edge2(k)) / step);
+    return int(std::clamp<double>(wanted, kMinIntervals, kMaxIntervals));
+  }
+};
+
 /// Samples triangles: distance_from() makes a function of the sample x for each triangle in turn,
 /// so that a search may begin where it ended for the sample before. Never where another triangle's
 /// ended: which one that is depends on the threads.
 template <class At, class DistanceFrom>
-std::vector<Sampled> sample_all(std::span<const Corners> triangles, double step, At&& at,
-                                DistanceFrom&& distance_from) {
+std::vector<Sampled> sample_all(std::span<const Corners> triangles, const Sampling& sampling,
+                                At&& at, DistanceFrom&& distance_from) {
   std::vector<Sampled> samples(triangles.size());
   parallel_for(
       triangles.size(),
       [&](std::size_t t) {
         const Corners& k = triangles[t];
         Sampled& s = samples[t];
-        s.area = norm(cross(k[1] - k[0], k[2] - k[0])) / 2;
         auto distance = distance_from(t);
-        const double wanted = std::ceil(std::sqrt(longest_edge2(k)) / step);
-        const int n = int(std::clamp<double>(wanted, kMinIntervals, kMaxIntervals));
-        for_each_sample(n, [&](double u, double v) {
-          const Vec3 x = at(t, u, v);
-          s.add(x, distance(x));
-        });
+        auto sample = [&](int n) {
+          s = {};
+          for_each_sample(n, [&](double u, double v) {
+            const Vec3 x = at(t, u, v);
+            s.add(x, distance(x));
+          });
+        };
+        const int n = sampling.intervals(k);
+        if (n > kMinIntervals && sampling.enough > 0) sample(kMinIntervals);
+        if (s.count == 0 || s.worst > sampling.enough) sample(n);
+        s.area = norm(cross(k[1] - k[0], k[2] - k[0])) / 2;
       },
       kGrain);
   return samples;
@@ -131,10 +145,10 @@ Vec3 on_flat(const Corners& t, double u, double v) {
 }
 
 std::vector<Sampled> sample_output(const OutputSurface& out, const SurfaceModel& model,
-                                   double step) {
+                                   const Sampling& sampling) {
   const PatchTree tree(model);
   return sample_all(
-      out.corners, step,
+      out.corners, sampling,
       [&](std::size_t t, double u, double v) { return on_flat(out.corners[t], u, v); },
       [&](std::size_t t) {
         return [&, t, last = NearestOnModel{}](const Vec3& x) mutable {
@@ -148,9 +162,9 @@ std::vector<Sampled> sample_output(const OutputSurface& out, const SurfaceModel&
 /// The samples of the model's patches, measured by distance_from as in sample_all().
 template <class DistanceFrom>
 std::vector<Sampled> sample_model(const SurfaceModel& model, std::span<const Corners> facets,
-                                  double step, DistanceFrom&& distance_from) {
+                                  const Sampling& sampling, DistanceFrom&& distance_from) {
   return sample_all(
-      facets, step,
+      facets, sampling,
       [&](std::size_t f, double u, double v) {
         return model.patch_of_facet(std::int32_t(f)).at(u, v);
       },
@@ -158,49 +172,55 @@ std::vector<Sampled> sample_model(const SurfaceModel& model, std::span<const Cor
 }
 
 std::vector<Sampled> sample_model_from(const OutputSurface& out, const SurfaceModel& model,
-                                       std::span<const Corners> facets, double step) {
+                                       const Sampling& sampling) {
   const FacetTree tree(out.corners);
-  return sample_model(model, facets, step, [&](std::size_t f) {
-    return [&tree, hausd = model.hausd(std::int32_t(f)),
-            last = NearestFacet{}](const Vec3& x) mutable {
+  return sample_model(model, facets_of(model), sampling, [&](std::size_t f) {
+    const double hausd = model.hausd(std::int32_t(f));
+    return [&tree, hausd, last = NearestFacet{}](const Vec3& x) mutable {
       last = tree.nearest_from(x, last);
       return Measured{std::sqrt(last.distance2), hausd, last.facet};
     };
   });
 }
 
-double measure_bulge(const SurfaceModel& model, std::span<const Corners> facets, double step) {
-  const FacetTree tree(facets);
-  const std::vector<Sampled> samples = sample_model(model, facets, step, [&](std::size_t f) {
-    return [&tree, &own = facets[f], hausd = model.hausd(std::int32_t(f)),
-            worst2 = 0.0](const Vec3& x) mutable {
-      // The other facets matter only to a sample that would raise the largest distance.
-      double d2 = closest_on_triangle(x, own[0], own[1], own[2]).distance2;
-      if (d2 <= worst2) return Measured{std::sqrt(d2), hausd};
-      if (const NearestFacet r = tree.nearest(x, d2); r.facet != kNone) d2 = r.distance2;
-      worst2 = std::max(worst2, d2);
-      return Measured{std::sqrt(d2), hausd};
-    };
-  });
-  return fold(samples).max;
-}
-
 }  // namespace
 
-SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel& model,
-                                         double step, double most) {
-  const OutputSurface out(mesh);
+double measure_bulge(const SurfaceModel& model) {
+  // A cubic patch is smooth: its highest place is missed by little between so many samples.
+  constexpr int kBulgeIntervals = 6;
   const std::vector<Corners> facets = facets_of(model);
+  const FacetTree tree(facets);
+  std::vector<double> bulge2(facets.size(), 0);
+  parallel_for(
+      facets.size(),
+      [&](std::size_t f) {
+        const Corners& own = facets[f];
+        for_each_sample(kBulgeIntervals, [&](double u, double v) {
+          const Vec3 x = model.patch_of_facet(std::int32_t(f)).at(u, v);
+          // The other facets matter only to a sample that would raise the largest distance.
+          double d2 = closest_on_triangle(x, own[0], own[1], own[2]).distance2;
+          if (d2 <= bulge2[f]) return;
+          if (const NearestFacet r = tree.nearest(x, d2); r.facet != kNone) d2 = r.distance2;
+          bulge2[f] = std::max(bulge2[f], d2);
+        });
+      },
+      kGrain);
+  return facets.empty() ? 0 : std::sqrt(*std::max_element(bulge2.begin(), bulge2.end()));
+}
+
+SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel& model,
+                                         double step, double most, double enough) {
+  const OutputSurface out(mesh);
+  const Sampling sampling{step, enough};
   SurfaceDistance result;
-  const std::vector<Sampled> of_out = sample_output(out, model, step);
+  const std::vector<Sampled> of_out = sample_output(out, model, sampling);
   result.out_to_model = fold(of_out);
   result.far_triangles = beyond(
       of_out, most, [&](std::size_t i) { return out.ids[i]; }, out.ids);
-  const std::vector<Sampled> of_model = sample_model_from(out, model, facets, step);
+  const std::vector<Sampled> of_model = sample_model_from(out, model, sampling);
   result.model_to_out = fold(of_model);
   result.far_facets = beyond(
       of_model, most, [](std::size_t i) { return std::int32_t(i); }, out.ids);
-  result.bulge = measure_bulge(model, facets, step);
   return result;
 }
 

@@ -31,7 +31,6 @@ struct FarSample {
 struct SurfaceDistance {
   OneSidedDistance out_to_model;  ///< of the mesh's triangles from the model's patches
   OneSidedDistance model_to_out;  ///< of the model's patches from the mesh's triangles
-  double bulge = 0;  ///< largest distance of the model's patches from its own flat facets
   std::vector<FarSample> far_triangles, far_facets;  ///< in the order of the ids
 
   double max() const { return std::max(out_to_model.max, model_to_out.max); }
@@ -45,11 +44,17 @@ struct SurfaceDistance {
 /// triangle would have more than about 300 samples; its corners, edge midpoints and centroid are
 /// always among them. Each sample is measured against all of the other surface, whatever its
 /// patches. Infinite from a surface that is empty; 0 of one that is. The same bits at any number of
-/// threads. \param step greater than 0 \param most triangles and facets with samples beyond so many
+/// threads. \param step greater than 0 \param enough where
+/// corners, edge midpoints and centroid are all within so many hausd, no more samples are taken
+/// \param most triangles and facets with samples beyond so many
 /// hausd are listed
 SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel& model,
                                          double step,
-                                         double most = std::numeric_limits<double>::infinity());
+                                         double most = std::numeric_limits<double>::infinity(),
+                                         double enough = 0);
+
+/// Largest distance of the model's patches from its own flat facets.
+double measure_bulge(const SurfaceModel& model);
 
 /// A step for measure_surface_distance(): 1/400 of the model's box diagonal, or more where that
 /// would take more than about 50 samples a triangle on the average of either surface.

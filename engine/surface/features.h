@@ -14,7 +14,7 @@ struct FeatureOptions {
   /// holds of its turn and its edges. For surfaces whose flat triangles are the truth.
   double crease = std::numeric_limits<double>::infinity();
   /// If set, only edges that it takes are ridges, whether found or carried by the mesh.
-  std::function<bool(VertexId, VertexId)> may_be_ridge;
+  std::function<bool(VertexId, VertexId)> may_be_ridge = {};
 };
 
 /// Classifies the surface of a mesh (paper, section 3.1): tags ridges by angle, corners (ends of
