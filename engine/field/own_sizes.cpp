@@ -16,7 +16,7 @@ void for_each_edge(const TetMesh& m, TetId t, F&& f) {
 /// Calls f(a, b) for the required edges of a tet: those inside the volume, known by their ends, and
 /// those of its surface triangles.
 template <class F>
-void for_each_required_edge(const TetMesh& m, TetId t, F&& f) {
+void for_each_required_edge(const TetMesh& m, TetId t, bool whole_surface, F&& f) {
   for_each_edge(m, t, [&](VertexId a, VertexId b) {
     if (m.vertex_tags[a] & m.vertex_tags[b] & tag::kOnRequiredEdge) f(a, b);
   });
@@ -24,7 +24,8 @@ void for_each_required_edge(const TetMesh& m, TetId t, F&& f) {
     if (!link.is_triangle()) continue;
     const Triangle& s = m.triangles[link.triangle()];
     for (int k = 0; k < 3; ++k)
-      if ((s.tags | s.edge_tag[k]) & tag::kRequired) f(s.v[(k + 1) % 3], s.v[(k + 2) % 3]);
+      if (whole_surface || ((s.tags | s.edge_tag[k]) & tag::kRequired))
+        f(s.v[(k + 1) % 3], s.v[(k + 2) % 3]);
   }
 }
 
@@ -35,9 +36,9 @@ SizeField own_sizes(TetMesh mesh) {
   return [map = std::make_shared<MeshSizeField>(mesh)](const Vec3& p) { return (*map)(p); };
 }
 
-std::vector<float> required_sizes(const TetMesh& mesh) {
-  std::vector<float> sizes =
-      mean_lengths(mesh, [&](TetId t, auto&& f) { for_each_required_edge(mesh, t, f); });
+std::vector<float> required_sizes(const TetMesh& mesh, bool whole_surface) {
+  std::vector<float> sizes = mean_lengths(
+      mesh, [&](TetId t, auto&& f) { for_each_required_edge(mesh, t, whole_surface, f); });
   if (std::all_of(sizes.begin(), sizes.end(), [](float h) { return h == 0; })) sizes.clear();
   return sizes;
 }

@@ -11,7 +11,7 @@ SizeField own_sizes(TetMesh mesh);
 /// The sizes that required entities have, which no remeshing changes: at each vertex the mean
 /// length of its required edges (those of required triangles and tets too, and what runs inside
 /// between two such ends: it is not touched either), 0 where it has none;
-/// empty if no vertex has any.
-std::vector<float> required_sizes(const TetMesh& mesh);
+/// empty if no vertex has any. \param whole_surface counts all of the surface as required
+std::vector<float> required_sizes(const TetMesh& mesh, bool whole_surface = false);
 
 }  // namespace cavea

@@ -47,7 +47,9 @@ void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>&
     throw InputError(fmt::format("the size field is not positive at ({}, {}, {})", p.x, p.y, p.z));
   }
   ImposedSizes imposed;
-  if (bounds.hgradreq) imposed = {required_sizes(mesh), *bounds.hgradreq};
+  if (bounds.hgradreq || bounds.surface_imposes)
+    imposed = {required_sizes(mesh, bounds.surface_imposes),
+               bounds.hgradreq.value_or(std::numeric_limits<double>::infinity())};
   if (!imposed.sizes.empty() || (bounds.hmin < bounds.hmax && std::isfinite(bounds.hgrad)))
     limit_gradation(mesh, bounds.hgrad, imposed);
 }

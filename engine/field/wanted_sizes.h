@@ -14,6 +14,7 @@ struct SizeBounds {
   /// The gradation from required entities; they impose the lengths of their own edges. None: they
   /// impose nothing.
   std::optional<double> hgradreq;
+  bool surface_imposes = false;  ///< the whole surface counts as required, even without hgradreq
 };
 
 /// The smallest and largest of some sizes; empty (smallest > largest) at first.

@@ -25,6 +25,7 @@ struct Limits {
   double quality_floor = 0.3;
   /// Share of the surface model's tolerance that the samples of surface triangles may use up.
   double tolerance_share = 1;
+  bool surface_frozen = false;  ///< no surface triangle or vertex of one is touched
 };
 
 /// What the operators read, and their scratch space: one a thread of control, reused.

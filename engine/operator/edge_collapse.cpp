@@ -24,6 +24,7 @@ Verdict may_merge(const OperatorContext& c) {
   if (p & (tag::kCorner | tag::kRequired)) return Verdict::kBreaksFeature;
   if (p & tag::kPinched) return Verdict::kBreaksTopology;
   if (!(p & tag::kSurface)) return Verdict::kAccept;
+  if (c.limits.surface_frozen) return Verdict::kBreaksFeature;
   if (!s.on_surface()) return Verdict::kBreaksTopology;
   for (const auto& at : s.triangles) {
     const Triangle& t = c.mesh.triangles[at.triangle];

@@ -29,6 +29,7 @@ Verdict may_split(const OperatorContext& c, EdgeOnSurface& edge) {
   for (TetId t : s.tets)
     if (c.mesh.tet_flags[t] & tet_flag::kRequired) return Verdict::kBreaksFeature;
   if (!s.on_surface()) return Verdict::kAccept;
+  if (c.limits.surface_frozen) return Verdict::kBreaksFeature;
   for (const auto& at : s.triangles)
     if (c.mesh.triangles[at.triangle].tags & tag::kRequired) return Verdict::kBreaksFeature;
   edge = edge_of(c.mesh, s);

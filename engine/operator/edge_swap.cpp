@@ -68,6 +68,7 @@ class RingTriangulation {
 Verdict may_swap(const OperatorContext& c) {
   const Shell& s = c.shell;
   if (s.cut || c.frozen_edge(s.p, s.q)) return Verdict::kFrozen;
+  if (c.limits.surface_frozen && s.on_surface()) return Verdict::kBreaksFeature;
   if (s.ring.size() > kMaxRing) return Verdict::kTooLarge;
   for (TetId t : s.tets)
     if (c.mesh.tet_flags[t] & tet_flag::kRequired) return Verdict::kBreaksFeature;

@@ -236,6 +236,7 @@ Verdict relocate(OperatorContext& c, VertexId v, NewVertex& to) {
   const Tag tags = c.tags(v);
   if (tags & tag::kFrozen) return Verdict::kFrozen;
   if (tags & (tag::kCorner | tag::kRequired)) return Verdict::kBreaksFeature;
+  if ((tags & tag::kSurface) && c.limits.surface_frozen) return Verdict::kBreaksFeature;
   if (tags & tag::kPinched) return Verdict::kBreaksTopology;
   gather_ball(c.mesh, v, c.marker, c.ball);
   if (c.ball.cut) return Verdict::kFrozen;

@@ -12,10 +12,10 @@ CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
   for (int sweep = 0; sweep < settings.sweeps; ++sweep) {
     if (settings.cancel && settings.cancel->load(std::memory_order_relaxed)) throw Cancelled();
     std::int64_t changes = 0;
-    if (settings.split) changes += split_pass(state);
+    if (settings.insert) changes += split_pass(state);
     if (settings.collapse) changes += collapse_pass(state);
-    if (sweep == 0 && settings.shake_below > 0) shake_pass(state);
-    if (settings.swap) changes += swap_pass(state);
+    if (sweep == 0 && settings.move && settings.shake_below > 0) shake_pass(state);
+    changes += quality_pass(state);
     if (settings.move) changes += move_pass(state);
     if (double(changes) <= kSettled * double(state.editor.living_tets()) || state.result.full)
       break;

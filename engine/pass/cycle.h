@@ -10,7 +10,8 @@ namespace cavea {
 /// What one run of the cycle does to a part.
 struct CycleSettings {
   Limits limits;
-  bool split = true, collapse = true, swap = true, move = true;
+  /// What may be done, in any pass: stars of edges insert vertices like splits, shaking moves them.
+  bool insert = true, collapse = true, swap = true, move = true;
   /// Split surface edges whose middle is farther from the ideal surface than the tolerance, too,
   /// down to this Euclidean length; 0: never.
   double shortest_fitted = 0;

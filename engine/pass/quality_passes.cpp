@@ -19,9 +19,9 @@ constexpr double kFaceSwapBelow = 0.5;
 /// The quality worklist of one part. Each edge and face is asked once after anything around it has
 /// changed: a tet is stamped when it changes and when it asks, and what an edge's shell asked after
 /// its last change need not be asked again from another tet of the shell.
-class SwapQueue {
+class QualityQueue {
  public:
-  explicit SwapQueue(PartState& s) : s_(s), m_(s.mesh()) {
+  explicit QualityQueue(PartState& s) : s_(s), m_(s.mesh()) {
     const std::size_t n = m_.tets.size();
     changed_.assign(n, 0);
     asked_.assign(n, 1);
@@ -67,13 +67,20 @@ class SwapQueue {
   void ask(TetId t) {
     const double quality = m_.qualities[t];
     ++clock_;
+    if (s_.settings.swap && swap(t, quality)) return;
+    asked_[t] = clock_;
+    if (quality >= s_.settings.repair_below) return;
+    if (s_.settings.collapse && collapse_for_quality(t)) return;
+    if (s_.settings.insert) star_for_quality(t);
+  }
+
+  bool swap(TetId t, double quality) {
     for (const auto& e : kEdgeVertices)
-      if (swap_edge(t, e[0], e[1])) return;
+      if (swap_edge(t, e[0], e[1])) return true;
     if (quality < kFaceSwapBelow)
       for (int f = 0; f < 4; ++f)
-        if (swap_face(t, f)) return;
-    asked_[t] = clock_;
-    if (quality < s_.settings.repair_below && !collapse_for_quality(t)) star_for_quality(t);
+        if (swap_face(t, f)) return true;
+    return false;
   }
 
   bool swap_edge(TetId t, int i, int j) {
@@ -130,7 +137,7 @@ class SwapQueue {
 
 }  // namespace
 
-std::int64_t swap_pass(PartState& s) { return SwapQueue(s).run(); }
+std::int64_t quality_pass(PartState& s) { return QualityQueue(s).run(); }
 
 std::int64_t move_pass(PartState& s) {
   TetMesh& m = s.mesh();

@@ -1,5 +1,7 @@
 #include "cavea/remesh/bulk.h"
 
+#include <algorithm>
+
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/subdivide/subdivide.h"
@@ -21,17 +23,20 @@ bool is_long(const TetMesh& m, VertexId a, VertexId b) {
   return metric_length(distance(m.points[a], m.points[b]), m.sizes[a], m.sizes[b]) > kBulkEdge;
 }
 
-double share_to_divide(const TetMesh& m) {
+bool on_surface(const TetMesh& m, VertexId a, VertexId b) {
+  return m.vertex_tags[a] & m.vertex_tags[b] & tag::kSurface;
+}
+
+double share_to_divide(const TetMesh& m, const BulkOptions& options) {
   const auto long_ones = parallel_reduce(
       m.tets.size(), std::int64_t{0},
       [&](std::size_t begin, std::size_t end) {
         std::int64_t n = 0;
         for (std::size_t t = begin; t < end; ++t)
-          for (const auto& e : kEdgeVertices)
-            if (is_long(m, m.tets[t][e[0]], m.tets[t][e[1]])) {
-              ++n;
-              break;
-            }
+          n += std::ranges::any_of(kEdgeVertices, [&](const auto& e) {
+            const VertexId a = m.tets[t][e[0]], b = m.tets[t][e[1]];
+            return !(options.surface_frozen && on_surface(m, a, b)) && is_long(m, a, b);
+          });
         return n;
       },
       [](std::int64_t a, std::int64_t b) { return a + b; });
@@ -40,12 +45,13 @@ double share_to_divide(const TetMesh& m) {
 
 }  // namespace
 
-int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface,
+int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, const BulkOptions& options,
                    const std::function<void()>& resize) {
   int level = 0;
-  for (; level < kMostLevels && share_to_divide(mesh) > kWorthwhile; ++level) {
+  for (; level < kMostLevels && share_to_divide(mesh, options) > kWorthwhile; ++level) {
     auto required = [&](const MeshEdge& e) {
       if (e.triangle == kNone) return false;
+      if (options.surface_frozen) return true;
       const Triangle& t = mesh.triangles[e.triangle];
       return ((t.tags | t.edge_tag[std::size_t(e.side)]) & tag::kRequired) != 0;
     };

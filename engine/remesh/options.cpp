@@ -55,11 +55,12 @@ ResolvedOptions resolve(const Options& o, double box_diagonal, const SizeRange& 
   constexpr double kHausd = 0.001, kHmin = 0.001, kHmax = 0.1;
   ResolvedOptions r;
   r.hausd = o.hausd.value_or(kHausd * box_diagonal);
-  // A coarse input is thus rounded, not blown up.
+  // A coarse input is thus rounded, not blown up; a surface that is to stay is the truth itself.
   constexpr double kBulges = 3;
-  r.max_bulge = o.faceted ? 0 : o.max_bulge.value_or(kBulges * r.hausd);
+  r.max_bulge = o.faceted || o.freeze.surface ? 0 : o.max_bulge.value_or(kBulges * r.hausd);
   r.hgrad = o.hgrad.value_or(std::numeric_limits<double>::infinity());
   r.hgradreq = o.hgradreq;
+  r.freeze = o.freeze;
   if (o.hsiz) {
     r.hmin = r.hmax = *o.hsiz;
     return r;

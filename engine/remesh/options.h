@@ -16,6 +16,17 @@ struct Progress {
   double seconds = 0;  ///< since the start of remesh()
 };
 
+/// What a run may not do.
+struct Freezes {
+  bool insert = false;    ///< no vertex comes
+  bool collapse = false;  ///< no vertex goes
+  bool swap = false;      ///< no edge or face is exchanged for others
+  bool move = false;      ///< no vertex moves
+  /// The surface, exterior and interfaces, stays to the bit: it is then the truth, and the lengths
+  /// of its edges are the sizes wanted there.
+  bool surface = false;
+};
+
 /// What the caller asks for. Lengths are in the mesh's own unit; what is not set follows from the
 /// bounding box (see resolve()).
 struct Options {
@@ -40,6 +51,8 @@ struct Options {
   const TetMesh* surface = nullptr;
   double angle = 45;  ///< degrees between normals above which an edge is a ridge
   bool detect_ridges = true;
+
+  Freezes freeze;
 
   double min_quality = 0.1;  ///< target: worst quality
   double min_conform = 90;   ///< target: percent of lengths within [1/sqrt2, sqrt2]

@@ -13,7 +13,12 @@ constexpr double kFittedEdge = 1.5;
 CycleSettings base(const ResolvedOptions& o) {
   CycleSettings s;
   s.limits.tolerance_share = kOperatorShare;
-  s.shortest_fitted = o.uniform() ? 0 : kFittedEdge * o.hmin;
+  s.limits.surface_frozen = o.freeze.surface;
+  s.shortest_fitted = o.uniform() || o.freeze.surface ? 0 : kFittedEdge * o.hmin;
+  s.insert = !o.freeze.insert;
+  s.collapse = !o.freeze.collapse;
+  s.swap = !o.freeze.swap;
+  s.move = !o.freeze.move;
   return s;
 }
 

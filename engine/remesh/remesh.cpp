@@ -45,11 +45,10 @@ class Run {
 
   void operator()() {
     timed("analysis", [&] { analyse(); });
-    timed("bulk", [&] { refine_in_bulk(mesh_, *surface_, [&] { resize(); }); });
+    timed("bulk", [&] { refine(); });
     for (const Phase& phase : recipe(r_)) timed(phase.name, [&] { run_phase(phase); });
     timed("measurement", [&] { distance_ = measure_distance(); });
-    for (int k = 0; k < kRepairs && !r_.uniform() && distance_.worse().worst > kMeasuredShare;
-         ++k) {
+    for (int k = 0; k < kRepairs && may_repair() && distance_.worse().worst > kMeasuredShare; ++k) {
       timed("repair", [&] { repair(); });
       timed("measurement", [&] { distance_ = measure_distance(); });
     }
@@ -82,7 +81,8 @@ class Run {
     report_.before.quality = quality_statistics(mesh_);
     take_surface();
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
-    sizes_vary_ = !r_.uniform() || (r_.hgradreq && !required_sizes(mesh_).empty());
+    sizes_vary_ =
+        !r_.uniform() || r_.freeze.surface || (r_.hgradreq && !required_sizes(mesh_).empty());
     resize();
     report_.before.lengths = length_statistics(mesh_);
   }
@@ -113,8 +113,16 @@ class Run {
 
   void resize() {
     set_wanted_sizes(mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_,
-                     {r_.hmin, r_.hmax, r_.hgrad, r_.hgradreq});
+                     {r_.hmin, r_.hmax, r_.hgrad, r_.hgradreq, r_.freeze.surface});
   }
+
+  void refine() {
+    if (r_.freeze.insert) return;
+    refine_in_bulk(mesh_, *surface_, {.surface_frozen = r_.freeze.surface}, [&] { resize(); });
+  }
+
+  /// Repairs make the surface finer.
+  bool may_repair() const { return !r_.uniform() && !r_.freeze.insert && !r_.freeze.surface; }
 
   void run_phase(const Phase& phase) {
     CycleSettings settings = phase.cycle;

@@ -9,6 +9,7 @@ struct ResolvedOptions {
   double hausd = 0, max_bulge = 0, hmin = 0, hmax = 0;
   double hgrad = 1;  ///< infinity for no bound
   std::optional<double> hgradreq;
+  Freezes freeze;
   bool uniform() const { return hmin == hmax; }
 };
 

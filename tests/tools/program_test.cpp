@@ -183,6 +183,18 @@ TEST_F(RunTest, ReportsWhichGradationsAreOff) {
   EXPECT_EQ(options["optim"], true);
 }
 
+TEST_F(RunTest, FreezesWhatItIsTold) {
+  ASSERT_EQ(cavea({"remesh", kSample, "-o", "out.mesh", "--report", "report.json", "--no-surface",
+                   "--no-swap", "--min-quality", "0", "--min-conform", "0"})
+                .status,
+            0);
+  const Json report = read_json("report.json");
+  EXPECT_EQ(report["options"]["frozen"], Json::array({"swap", "surface"}));
+  EXPECT_FALSE(report["verdicts"].contains("edge_swap"));
+  EXPECT_TRUE(report["verdicts"].contains("edge_split"));
+  EXPECT_EQ(report["before"]["counts"]["triangles"], report["after"]["counts"]["triangles"]);
+}
+
 TEST_F(RunTest, OverwritesAnOlderOutput) {
   write_text(file("out.mesh"), "old");
   ASSERT_EQ(cavea({"remesh", kSample, "-o", "out.mesh"}).status, 0);

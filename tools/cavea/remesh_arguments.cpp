@@ -53,6 +53,15 @@ void add_angle_flags(CLI::App& command, RemeshArguments& arguments) {
   command.add_flag("--no-angle", arguments.no_angle, "Detect no ridges")->excludes(angle);
 }
 
+void add_freeze_flags(CLI::App& command, Freezes& freeze) {
+  command.add_flag("--no-insert", freeze.insert, "Insert no vertices");
+  command.add_flag("--no-collapse", freeze.collapse, "Remove no vertices");
+  command.add_flag("--no-swap", freeze.swap, "Swap no edges and faces");
+  command.add_flag("--no-move", freeze.move, "Move no vertices");
+  command.add_flag("--no-surface", freeze.surface,
+                   "Leave the surface as it is; its edges' lengths are the sizes there");
+}
+
 void add_target_flags(CLI::App& command, Options& options) {
   command
       .add_option("--min-quality", options.min_quality,
@@ -87,6 +96,7 @@ CLI::App* add_remesh_command(CLI::App& app, RemeshArguments& arguments) {
   add_size_flags(*command, arguments);
   add_gradation_flags(*command, arguments);
   add_angle_flags(*command, arguments);
+  add_freeze_flags(*command, arguments.options.freeze);
   add_target_flags(*command, arguments.options);
   command->add_option("--threads", arguments.threads, "Number of threads [all cores]");
   command->footer(

@@ -3,6 +3,19 @@
 namespace cavea::program {
 namespace {
 
+Json frozen_json(const Freezes& freeze) {
+  Json frozen = Json::array();
+  const auto add = [&](bool is_frozen, const char* what) {
+    if (is_frozen) frozen.push_back(what);
+  };
+  add(freeze.insert, "insert");
+  add(freeze.collapse, "collapse");
+  add(freeze.swap, "swap");
+  add(freeze.move, "move");
+  add(freeze.surface, "surface");
+  return frozen;
+}
+
 Json options_json(const RunReport& run) {
   const Options& asked = run.arguments.options;
   const Report& report = run.report;
@@ -15,6 +28,7 @@ Json options_json(const RunReport& run) {
   options["optim"] = asked.optim;
   options["hgradreq"] = nullptr;
   if (asked.hgradreq && !run.arguments.no_hgradreq) options["hgradreq"] = *asked.hgradreq;
+  options["frozen"] = frozen_json(asked.freeze);
   options["min_quality"] = asked.min_quality;
   options["min_conform"] = asked.min_conform;
   return options;
