@@ -1,5 +1,0 @@
-if(EXISTS "/tmp/w0/b/tests/cavea_test_remesh[1]_tests.cmake")
-  include("/tmp/w0/b/tests/cavea_test_remesh[1]_tests.cmake")
-else()
-  add_test(cavea_test_remesh_NOT_BUILT cavea_test_remesh_NOT_BUILT)
-endif()
