@@ -40,7 +40,7 @@ void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>&
       if (!(wish > 0)) atomic_min(senseless, VertexId(v));
       h = std::min(h, wish);
     }
-    mesh.sizes[v] = float(std::clamp(h, bounds.hmin, bounds.hmax));
+    mesh.sizes[v] = float(bounds.scale * std::clamp(h, bounds.hmin, bounds.hmax));
   });
   if (std::size_t(senseless) < mesh.points.size()) {
     const Vec3& p = mesh.points[senseless];

@@ -10,6 +10,7 @@ namespace cavea {
 
 struct SizeBounds {
   double hmin = 0, hmax = 0;
+  double scale = 1;  ///< of what has been bounded, before the gradation
   double hgrad = 1;  ///< infinity for no bound
   /// The gradation from required entities; they impose the lengths of their own edges. None: they
   /// impose nothing.

@@ -4,6 +4,7 @@
 
 #include "cavea/base/parallel.h"
 #include "cavea/mesh/compact.h"
+#include "cavea/mesh/wanted_tets.h"
 #include "cavea/part/extract.h"
 #include "cavea/partition/blocks.h"
 
@@ -18,15 +19,6 @@ constexpr std::int64_t kTetsPerPart = 64000;
 constexpr int kManyParts = 16;
 constexpr std::int64_t kManyPartsAbove = 100000;
 
-/// Tets that the sizes ask for in a tet: its volume over that of a regular one of the wanted edge.
-float predicted_tets(const TetMesh& m, TetId t) {
-  constexpr double kRegularVolume = 0.11785113;
-  const auto [a, b, c, d] = m.corners(t);
-  double h = 0;
-  for (VertexId v : m.tets[t]) h += m.sizes[v] / 4;
-  return float(1 + std::abs(volume6(a, b, c, d)) / (6 * kRegularVolume * h * h * h));
-}
-
 std::vector<std::int32_t> label_parts(const TetMesh& m, int parts) {
   const std::size_t n = m.tets.size();
   std::vector<Vec3> centers(n);
@@ -35,7 +27,7 @@ std::vector<std::int32_t> label_parts(const TetMesh& m, int parts) {
   parallel_for(n, [&](std::size_t t) {
     const auto [a, b, c, d] = m.corners(TetId(t));
     centers[t] = (a + b + c + d) / 4;
-    work[t] = predicted_tets(m, TetId(t));
+    work[t] = float(1 + wanted_tets(m, TetId(t)));
     for (int f = 0; f < 4; ++f) {
       const FaceLink link = m.across(TetId(t), f);
       neighbors[t][f] = link.is_tet() ? link.tet() : kNone;

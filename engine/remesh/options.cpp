@@ -43,6 +43,8 @@ void validate(const Options& o) {
   if (o.hsiz && o.optim) throw OptionError("optim excludes hsiz");
   require_ratio(o.hgrad, "hgrad");
   require_ratio(o.hgradreq, "hgradreq");
+  if (o.max_tets && *o.max_tets < 1)
+    throw OptionError(fmt::format("max_tets must be at least 1, not {}", *o.max_tets));
   require_range(o.angle, 0, 180, "angle");
   require_range(o.min_quality, 0, 1, "min_quality");
   require_range(o.min_conform, 0, 100, "min_conform");

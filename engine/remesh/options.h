@@ -49,6 +49,9 @@ struct Options {
   /// The mesh whose surface is the input's truth in place of its own: an earlier one, so that a
   /// loop does not drift. Read during remesh() only; may be the mesh that is remeshed.
   const TetMesh* surface = nullptr;
+  /// A budget: where more tets than this are predicted, sizes (but those of required entities) and
+  /// the operators' tolerance are made coarser until the result has about as many.
+  std::optional<std::int64_t> max_tets;
   double angle = 45;  ///< degrees between normals above which an edge is a ridge
   bool detect_ridges = true;
 

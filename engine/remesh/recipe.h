@@ -18,6 +18,9 @@ struct Phase {
   /// Asked of all tets again at the start, because this phase's limits differ from those before.
   std::uint8_t ask = 0;
   bool resize = true;  ///< sets the wanted sizes anew before each round
+  /// More rounds than `rounds` while the number of tets is not the budget's; after each round it
+  /// tells what sizes come to.
+  int budget_rounds = 0;
 };
 
 /// The phases of section 4.3: rough sampling of the surface, rough and fine adaptation to the

@@ -14,6 +14,7 @@
 #include "cavea/mesh/check.h"
 #include "cavea/mesh/compact.h"
 #include "cavea/part/round.h"
+#include "cavea/remesh/budget.h"
 #include "cavea/remesh/bulk.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/resolved.h"
@@ -33,14 +34,17 @@ constexpr double kMeasuredShare = 0.95;
 /// Places that are still too far from the surface after this many repairs are left and reported.
 constexpr int kRepairs = 7;
 
+/// A budget of tets is met when it is exceeded by no more than this share.
+constexpr double kBudgetMargin = 0.1;
+
 /// One run of remesh(): the mesh it works on and what it reports.
 class Run {
  public:
   Run(const TetMesh& input, const SizeField& field, const Options& options)
-      : mesh_(input), field_(field), options_(options) {
+      : mesh_(input), field_(field), options_(options), budget_(options.max_tets) {
     compact(mesh_);
     if (options.optim) field_ = own_sizes(mesh_);
-    r_ = resolve(options, box_diagonal(mesh_), wished_range(mesh_, field));
+    r_ = resolve(options, box_diagonal(mesh_), wished_range(mesh_, field_));
   }
 
   void operator()() {
@@ -81,23 +85,29 @@ class Run {
     report_.before.quality = quality_statistics(mesh_);
     take_surface();
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
-    sizes_vary_ =
-        !r_.uniform() || r_.freeze.surface || (r_.hgradreq && !required_sizes(mesh_).empty());
+    sizes_vary_ = !r_.uniform() || budget_.given() || r_.freeze.surface ||
+                  (r_.hgradreq && !required_sizes(mesh_).empty());
     resize();
+    if (budget_.binds()) loosen();
     report_.before.lengths = length_statistics(mesh_);
   }
 
   void take_surface() {
-    const SurfaceModel::Settings settings{r_.hausd, r_.max_bulge, r_.hmin, r_.hmax};
+    if (!options_.surface) classify_features(mesh_, feature_options());
+    take_model(surface_, r_.hausd);
+    if (options_.surface) attach_to(mesh_, *surface_, feature_options(), r_.hausd);
+  }
+
+  /// The model of the mesh, which is classified, or of the one that the caller names as the truth.
+  void take_model(std::optional<SurfaceModel>& model, double hausd) {
+    const SurfaceModel::Settings settings{hausd, r_.max_bulge, r_.hmin, r_.hmax};
     if (!options_.surface) {
-      classify_features(mesh_, feature_options());
-      surface_.emplace(mesh_, settings);
+      model.emplace(mesh_, settings);
       return;
     }
     TetMesh truth = *options_.surface;
     classify_features(truth, feature_options());
-    surface_.emplace(truth, settings);
-    attach_to(mesh_, *surface_, feature_options(), r_.hausd);
+    model.emplace(truth, settings);
   }
 
   FeatureOptions feature_options() const {
@@ -112,23 +122,41 @@ class Run {
   }
 
   void resize() {
-    set_wanted_sizes(mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_,
-                     {r_.hmin, r_.hmax, r_.hgrad, r_.hgradreq, r_.freeze.surface});
+    budget_.fit(mesh_, [&] {
+      set_wanted_sizes(
+          mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_,
+          {r_.hmin, r_.hmax, budget_.scale(), r_.hgrad, r_.hgradreq, r_.freeze.surface});
+    });
+  }
+
+  /// The surface of larger edges is farther from the model, as the square of their scale: operators
+  /// are to allow that, save where another sheet is near. What is measured is the model as asked.
+  void loosen() { take_model(loose_, budget_.scale() * budget_.scale() * r_.hausd); }
+
+  const SurfaceModel& working_surface() const { return loose_ ? *loose_ : *surface_; }
+
+  /// Whether a phase may end after a round with this result.
+  bool settled(const Phase& phase, const CycleResult& result) const {
+    return !result.full && (phase.budget_rounds == 0 || budget_.met(mesh_)) &&
+           double(result.changes) < phase.settled * double(mesh_.tets.size());
   }
 
   void refine() {
     if (r_.freeze.insert) return;
-    refine_in_bulk(mesh_, *surface_, {.surface_frozen = r_.freeze.surface}, [&] { resize(); });
+    refine_in_bulk(mesh_, working_surface(), {.surface_frozen = r_.freeze.surface},
+                   [&] { resize(); });
   }
 
-  /// Repairs make the surface finer.
-  bool may_repair() const { return !r_.uniform() && !r_.freeze.insert && !r_.freeze.surface; }
+  /// Repairs make the surface finer, which would break a budget that binds.
+  bool may_repair() const {
+    return !r_.uniform() && !r_.freeze.insert && !r_.freeze.surface && !budget_.binds();
+  }
 
   void run_phase(const Phase& phase) {
     CycleSettings settings = phase.cycle;
     settings.cancel = options_.cancel;
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= phase.ask;
-    for (int round = 1; round <= phase.rounds; ++round) {
+    for (int round = 1; round <= phase.rounds || more_for_budget(phase, round); ++round) {
       tell(phase.name, round);
       if (phase.resize && round > 1 && sizes_vary_) {
         resize();
@@ -138,12 +166,16 @@ class Run {
         settings.most_tets = std::int64_t(phase.growth * double(mesh_.tets.size()) /
                                           part_count(std::int64_t(mesh_.tets.size()))) +
                              10000;
-      const RoundResult result = run_round(mesh_, *surface_, settings, &report_.part_of_tet);
+      const RoundResult result =
+          run_round(mesh_, working_surface(), settings, &report_.part_of_tet);
       verdicts_ += result.cycle.verdicts;
-      if (!result.cycle.full &&
-          double(result.cycle.changes) < phase.settled * double(mesh_.tets.size()))
-        break;
+      if (phase.budget_rounds > 0) budget_.learn(mesh_);
+      if (settled(phase, result.cycle)) break;
     }
+  }
+
+  bool more_for_budget(const Phase& phase, int round) const {
+    return round <= phase.rounds + phase.budget_rounds && !budget_.met(mesh_);
   }
 
   SurfaceDistance measure_distance() const {
@@ -209,6 +241,10 @@ class Run {
         q.flat.empty() ? Vec3{} : q.flat.front().place);
     add("conforming lengths", options_.min_conform, l.conforming_percent(),
         l.conforming_percent() >= options_.min_conform, l.longest_place);
+    if (budget_.given()) {
+      const double most = double(*options_.max_tets), tets = double(mesh_.tets.size());
+      add("tets", most, tets, tets <= (1 + kBudgetMargin) * most, {});
+    }
     const OneSidedDistance& d = distance_.worse();
     const double hausd = d.hausd > 0 ? d.hausd : r_.hausd;
     add("surface distance", hausd, d.worst * hausd, d.worst <= 1, d.where);
@@ -221,9 +257,10 @@ class Run {
   std::vector<Crossing> crossings_;
   ResolvedOptions r_;
   bool sizes_vary_ = true;  ///< over space, so that new vertices want theirs set anew
-  std::optional<SurfaceModel> surface_;
+  std::optional<SurfaceModel> surface_, loose_;
   SurfaceDistance distance_;
   VerdictTable verdicts_;
+  Budget budget_;
   Timer timer_;
 };
 

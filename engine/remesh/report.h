@@ -22,8 +22,8 @@ struct PhaseTime {
 
 /// A goal of the run, and whether it was met.
 struct Target {
-  /// "worst quality", "flat tetrahedra", "conforming lengths", "surface distance" or "surface
-  /// crossings"
+  /// "worst quality", "flat tetrahedra", "conforming lengths", "tets", "surface distance" or
+  /// "surface crossings"
   std::string name;
   double wanted = 0, measured = 0;
   bool met = true;

@@ -46,6 +46,7 @@ TEST(Options, AreRefusedWhenSenseless) {
   expect_refused([](Options& o) { o.hsiz = 1, o.hmin = 0.5; }, "hsiz");
   expect_refused([](Options& o) { o.hsiz = 1, o.hmax = 2; }, "hsiz");
   expect_refused([](Options& o) { o.hsiz = 1, o.optim = true; }, "optim");
+  expect_refused([](Options& o) { o.max_tets = 0; }, "max_tets");
   expect_refused([](Options& o) { o.threads = -1; }, "threads");
 }
 

@@ -147,6 +147,16 @@ TEST(Sizes, OfTheMeshItselfAreKept) {
                 0.15);
 }
 
+TEST(Sizes, OfTheMeshItselfAreKeptBeyondTheUsualBounds) {
+  TetMesh mesh = built(kuhn_cube(2));
+  Options options;
+  options.optim = true;
+  const Report report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  EXPECT_GT(report.hmax, 0.5);
+  EXPECT_LT(report.after.counts.tets, 2 * report.before.counts.tets);
+}
+
 TEST(Sizes, OfTheMeshItselfExcludeOthers) {
   TetMesh mesh = built(kuhn_cube(2));
   Options options;

@@ -171,6 +171,17 @@ TEST_F(RunTest, TakesItsSizesFromAFile) {
   EXPECT_LT(report["after"]["counts"]["tets"], 2000);
 }
 
+TEST_F(RunTest, KeepsToABudget) {
+  const Outcome outcome = cavea({"remesh", kSample, "-o", "out.mesh", "--max-tets", "3000",
+                                 "--hausd", "0.001", "--report", "report.json"});
+  EXPECT_EQ(outcome.status, 1) << "so few cannot hold the surface";
+  EXPECT_NE(outcome.err.find("surface distance"), std::string::npos) << outcome.err;
+  const Json report = read_json("report.json");
+  EXPECT_EQ(report["options"]["max_tets"], 3000);
+  EXPECT_NEAR(report["after"]["counts"]["tets"].get<double>(), 3000, 300);
+  EXPECT_EQ(report["targets"].size(), 6u);
+}
+
 TEST_F(RunTest, ReportsWhichGradationsAreOff) {
   write_text(file("in.mesh"), cube_text());
   ASSERT_EQ(cavea({"remesh", "in.mesh", "--optim", "--no-hgrad", "--no-hgradreq", "-o", "out.mesh",

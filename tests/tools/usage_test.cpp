@@ -61,6 +61,8 @@ TEST_F(UsageTest, RefusesNumbersThatAreNone) {
     for (const char* value : {"x", "1x", ""})
       expect_option_refused({std::string("--") + name, value}, std::string("--") + name);
   expect_option_refused({"--threads", "1.5"}, "--threads");
+  for (const char* value : {"x", "1.5", ""})
+    expect_option_refused({"--max-tets", value}, "--max-tets");
 }
 
 TEST_F(UsageTest, RefusesSizesThatAreNotPositive) {
@@ -78,6 +80,7 @@ TEST_F(UsageTest, RefusesOtherSenselessOptions) {
   for (const char* value : {"-1", "181", "nan", "inf"})
     expect_option_refused({"--angle", value}, "angle");
   for (const char* value : {"0", "-2"}) expect_option_refused({"--threads", value}, "threads");
+  for (const char* value : {"0", "-5"}) expect_option_refused({"--max-tets", value}, "max_tets");
   for (const char* value : {"nan", "1.5", "-0.1"})
     expect_option_refused({"--min-quality", value}, "quality");
   for (const char* value : {"nan", "101", "-1"})

@@ -28,6 +28,8 @@ void add_size_flags(CLI::App& command, RemeshArguments& arguments) {
                            .add_option("--sol", arguments.sizes,
                                        "Wanted edge lengths at the vertices of IN (.sol, .solb)")
                            ->excludes(uniform);
+  command.add_option("--max-tets", options.max_tets,
+                     "Number of tetrahedra to keep to, by larger edges where needed");
   command.add_flag("--optim", options.optim, "Keep the mesh's own edge lengths")
       ->excludes(uniform)
       ->excludes(sizes);

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "run_report.h"
 #include "summary_text.h"
@@ -35,12 +36,17 @@ std::string cost_text(const RunReport& run) {
   return t.text();
 }
 
+/// A number of entities in full, anything else to four digits.
+std::string figure(double x) {
+  return x >= 1000 && x == std::floor(x) ? fmt::format("{:.0f}", x) : fmt::format("{:.4g}", x);
+}
+
 std::string targets_text(const Report& report) {
   TextTable t;
   t.row({"target", "wanted", "measured", ""});
   for (const Target& target : report.targets)
-    t.row({target.name, fmt::format("{:.4g}", target.wanted),
-           fmt::format("{:.4g}", target.measured), target.met ? "met" : "MISSED"});
+    t.row({target.name, figure(target.wanted), figure(target.measured),
+           target.met ? "met" : "MISSED"});
   return t.text();
 }
 
@@ -100,8 +106,9 @@ std::string missed_text(const Report& report) {
   std::string out;
   for (const Target& t : report.targets)
     if (!t.met)
-      out += fmt::format("cavea: target missed: {}: {:.4g}, wanted {:.4g}{}{}\n", t.name,
-                         t.measured, t.wanted, t.where.empty() ? "" : ", at ", t.where);
+      out +=
+          fmt::format("cavea: target missed: {}: {}, wanted {}{}{}\n", t.name, figure(t.measured),
+                      figure(t.wanted), t.where.empty() ? "" : ", at ", t.where);
   return out + flat_text(report.after.quality.flat);
 }
 
