@@ -9,6 +9,7 @@
 #include "cavea/base/error.h"
 #include "cavea/base/parallel.h"
 #include "cavea/field/gradation.h"
+#include "cavea/field/local_bounds.h"
 #include "cavea/field/own_sizes.h"
 #include "cavea/mesh/buckets.h"
 
@@ -31,16 +32,17 @@ SizeRange wished_range(const TetMesh& mesh, const SizeField& field) {
 
 void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>& curvature_size,
                       const SizeField& field, const SizeBounds& bounds) {
+  const VertexBounds at = bounds_of_vertices(mesh, bounds.hmin, bounds.hmax, bounds.local);
   VertexId senseless = std::numeric_limits<VertexId>::max();  // the smallest one is told
   parallel_for(mesh.points.size(), [&](std::size_t v) {
-    double h = bounds.hmax;
+    double h = at.hmax[v];
     if (mesh.vertex_tags[v] & tag::kSurface) h = std::min(h, curvature_size(mesh.anchors[v]));
     if (field) {
       const double wish = field(mesh.points[v]);
       if (!(wish > 0)) atomic_min(senseless, VertexId(v));
       h = std::min(h, wish);
     }
-    mesh.sizes[v] = float(bounds.scale * std::clamp(h, bounds.hmin, bounds.hmax));
+    mesh.sizes[v] = float(bounds.scale * std::max(h, double(at.hmin[v])));
   });
   if (std::size_t(senseless) < mesh.points.size()) {
     const Vec3& p = mesh.points[senseless];
@@ -50,7 +52,8 @@ void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>&
   if (bounds.hgradreq || bounds.surface_imposes)
     imposed = {required_sizes(mesh, bounds.surface_imposes),
                bounds.hgradreq.value_or(std::numeric_limits<double>::infinity())};
-  if (!imposed.sizes.empty() || (bounds.hmin < bounds.hmax && std::isfinite(bounds.hgrad)))
+  const bool vary = bounds.hmin < bounds.hmax || !bounds.local.empty();
+  if (!imposed.sizes.empty() || (vary && std::isfinite(bounds.hgrad)))
     limit_gradation(mesh, bounds.hgrad, imposed);
 }
 

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 
+#include "cavea/field/local_parameters.h"
 #include "cavea/field/size_field.h"
 #include "cavea/mesh/tet_mesh.h"
 
@@ -10,8 +12,9 @@ namespace cavea {
 
 struct SizeBounds {
   double hmin = 0, hmax = 0;
-  double scale = 1;  ///< of what has been bounded, before the gradation
-  double hgrad = 1;  ///< infinity for no bound
+  std::span<const LocalParameters> local = {};  ///< other bounds, by reference
+  double scale = 1;                             ///< of what has been bounded, before the gradation
+  double hgrad = 1;                             ///< infinity for no bound
   /// The gradation from required entities; they impose the lengths of their own edges. None: they
   /// impose nothing.
   std::optional<double> hgradreq;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,7 +27,73 @@ void require_range(double value, double low, double high, const char* name) {
     throw OptionError(fmt::format("{} must be between {} and {}, not {}", name, low, high, value));
 }
 
+const char* name(LocalParameters::Entity entity) {
+  return entity == LocalParameters::Entity::kTets ? "tetrahedra" : "triangles";
+}
+
+/// Every vertex of the region's own bounds is a number, and they are the right way around.
+void check_shape(const SizeBox& box) {
+  const Vec3 side = box.high - box.low;
+  if (!(is_finite(box.low) && is_finite(box.high) && side.x > 0 && side.y > 0 && side.z > 0))
+    throw OptionError("a box must have its low corner below its high one along each axis");
+}
+
+void check_shape(const SizeSphere& sphere) {
+  if (!is_finite(sphere.center)) throw OptionError("the center of a sphere is not finite");
+  require_positive(sphere.radius, "the radius of a sphere");
+}
+
+void check_all_local(const Options& o) {
+  for (std::size_t i = 0; i < o.local.size(); ++i) {
+    const LocalParameters& p = o.local[i];
+    validate_entry(p);
+    for (std::size_t j = 0; j < i; ++j)
+      if (o.local[j].entity == p.entity && o.local[j].reference == p.reference)
+        throw OptionError(fmt::format("there are two local parameters of {} of reference {}",
+                                      name(p.entity), p.reference));
+  }
+  for (const SizeRegion& region : o.size_regions) {
+    validate_entry(region);
+    if (o.hmin && size_of(region) < *o.hmin)
+      throw OptionError(
+          fmt::format("the size {} of a region is smaller than hmin {}", size_of(region), *o.hmin));
+  }
+  if (o.hsiz && !(o.local.empty() && o.size_regions.empty()))
+    throw OptionError("hsiz excludes local parameters and regions");
+}
+
+/// What the local parameters change of a run.
+void resolve_local(const Options& o, ResolvedOptions& r) {
+  r.local = o.local;
+  r.smallest = r.hmin, r.largest = r.hmax;
+  for (const LocalParameters& p : o.local) {
+    r.smallest = std::min({r.smallest, p.hmin.value_or(r.hmin), p.hmax.value_or(r.hmax)});
+    r.largest = std::max(r.largest, p.hmax.value_or(r.hmax));
+    if (p.hausd) r.hausd_of_triangles.push_back({p.reference, *p.hausd});
+  }
+}
+
 }  // namespace
+
+void validate_entry(const LocalParameters& p) {
+  require_positive(p.hmin, "hmin");
+  require_positive(p.hmax, "hmax");
+  require_positive(p.hausd, "hausd");
+  if (p.hmin && p.hmax && *p.hmin > *p.hmax)
+    throw OptionError(fmt::format("hmin {} is larger than hmax {}, of {} of reference {}", *p.hmin,
+                                  *p.hmax, name(p.entity), p.reference));
+  if (p.hausd && p.entity == LocalParameters::Entity::kTets)
+    throw OptionError(
+        fmt::format("hausd is of triangles, not of tetrahedra (reference {})", p.reference));
+  if (!p.hmin && !p.hmax && !p.hausd)
+    throw OptionError(
+        fmt::format("{} of reference {} have no parameter", name(p.entity), p.reference));
+}
+
+void validate_entry(const SizeRegion& region) {
+  std::visit([](const auto& r) { check_shape(r); }, region);
+  require_positive(size_of(region), "the size of a region");
+}
 
 void validate(const Options& o) {
   require_positive(o.hausd, "hausd");
@@ -40,6 +107,7 @@ void validate(const Options& o) {
   if (o.hsiz && (o.hmin || o.hmax)) throw OptionError("hsiz excludes hmin and hmax");
   if (o.hmin && o.hmax && *o.hmin > *o.hmax)
     throw OptionError(fmt::format("hmin {} is larger than hmax {}", *o.hmin, *o.hmax));
+  check_all_local(o);
   if (o.hsiz && o.optim) throw OptionError("optim excludes hsiz");
   require_ratio(o.hgrad, "hgrad");
   require_ratio(o.hgradreq, "hgradreq");
@@ -64,13 +132,16 @@ ResolvedOptions resolve(const Options& o, double box_diagonal, const SizeRange& 
   r.hgradreq = o.hgradreq;
   r.freeze = o.freeze;
   if (o.hsiz) {
-    r.hmin = r.hmax = *o.hsiz;
+    r.hmin = r.hmax = r.smallest = r.largest = *o.hsiz;
     return r;
   }
   // No edge is longer than the diagonal, whatever a field says where it means "any".
   const double largest = std::min(wished.largest, box_diagonal);
   r.hmax = o.hmax.value_or(std::max({kHmax * box_diagonal, largest, o.hmin.value_or(0)}));
-  r.hmin = o.hmin.value_or(std::min({kHmin * box_diagonal, wished.smallest, r.hmax}));
+  double smallest = std::min(kHmin * box_diagonal, wished.smallest);
+  for (const SizeRegion& region : o.size_regions) smallest = std::min(smallest, size_of(region));
+  r.hmin = o.hmin.value_or(std::min(smallest, r.hmax));
+  resolve_local(o, r);
   return r;
 }
 

@@ -3,7 +3,10 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
+#include "cavea/field/local_parameters.h"
+#include "cavea/field/size_regions.h"
 #include "cavea/mesh/tet_mesh.h"
 
 namespace cavea {
@@ -49,6 +52,10 @@ struct Options {
   /// The mesh whose surface is the input's truth in place of its own: an earlier one, so that a
   /// loop does not drift. Read during remesh() only; may be the mesh that is remeshed.
   const TetMesh* surface = nullptr;
+  /// Other bounds and tolerances by reference, and places with sizes of their own; both exclude
+  /// hsiz.
+  std::vector<LocalParameters> local;
+  std::vector<SizeRegion> size_regions;
   /// A budget: where more tets than this are predicted, sizes (but those of required entities) and
   /// the operators' tolerance are made coarser until the result has about as many.
   std::optional<std::int64_t> max_tets;
@@ -64,6 +71,10 @@ struct Options {
   std::function<void(const Progress&)> progress;  ///< called from the calling thread only
   const std::atomic<bool>* cancel = nullptr;      ///< when true, remesh() throws Cancelled
 };
+
+/// \throw OptionError saying why: not finite, not positive, contradictory.
+void validate_entry(const LocalParameters& local);
+void validate_entry(const SizeRegion& region);
 
 /// \throw OptionError naming the option and why: not finite, not positive, contradictory.
 void validate(const Options& options);

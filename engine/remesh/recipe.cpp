@@ -14,7 +14,7 @@ CycleSettings base(const ResolvedOptions& o) {
   CycleSettings s;
   s.limits.tolerance_share = kOperatorShare;
   s.limits.surface_frozen = o.freeze.surface;
-  s.shortest_fitted = o.uniform() || o.freeze.surface ? 0 : kFittedEdge * o.hmin;
+  s.shortest_fitted = o.uniform() || o.freeze.surface ? 0 : kFittedEdge * o.smallest;
   s.insert = !o.freeze.insert;
   s.collapse = !o.freeze.collapse;
   s.swap = !o.freeze.swap;

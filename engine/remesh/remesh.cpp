@@ -45,6 +45,7 @@ class Run {
     compact(mesh_);
     if (options.optim) field_ = own_sizes(mesh_);
     r_ = resolve(options, box_diagonal(mesh_), wished_range(mesh_, field_));
+    field_ = with_regions(field_, options.size_regions, r_.hgrad);
   }
 
   void operator()() {
@@ -94,13 +95,17 @@ class Run {
 
   void take_surface() {
     if (!options_.surface) classify_features(mesh_, feature_options());
-    take_model(surface_, r_.hausd);
+    take_model(surface_, 1);
     if (options_.surface) attach_to(mesh_, *surface_, feature_options(), r_.hausd);
   }
 
   /// The model of the mesh, which is classified, or of the one that the caller names as the truth.
-  void take_model(std::optional<SurfaceModel>& model, double hausd) {
-    const SurfaceModel::Settings settings{hausd, r_.max_bulge, r_.hmin, r_.hmax};
+  /// `looser` multiplies the tolerances.
+  void take_model(std::optional<SurfaceModel>& model, double looser) {
+    auto of_reference = r_.hausd_of_triangles;
+    for (auto& [reference, hausd] : of_reference) hausd *= looser;
+    const SurfaceModel::Settings settings{looser * r_.hausd, r_.max_bulge, r_.smallest, r_.largest,
+                                          of_reference};
     if (!options_.surface) {
       model.emplace(mesh_, settings);
       return;
@@ -125,13 +130,13 @@ class Run {
     budget_.fit(mesh_, [&] {
       set_wanted_sizes(
           mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_,
-          {r_.hmin, r_.hmax, budget_.scale(), r_.hgrad, r_.hgradreq, r_.freeze.surface});
+          {r_.hmin, r_.hmax, r_.local, budget_.scale(), r_.hgrad, r_.hgradreq, r_.freeze.surface});
     });
   }
 
   /// The surface of larger edges is farther from the model, as the square of their scale: operators
   /// are to allow that, save where another sheet is near. What is measured is the model as asked.
-  void loosen() { take_model(loose_, budget_.scale() * budget_.scale() * r_.hausd); }
+  void loosen() { take_model(loose_, budget_.scale() * budget_.scale()); }
 
   const SurfaceModel& working_surface() const { return loose_ ? *loose_ : *surface_; }
 
@@ -197,7 +202,7 @@ class Run {
     constexpr double kReach = 1.01;
     auto add = [&](const FarSample& f) {
       if (f.triangle == kNone) return;
-      SurfaceModel::Spot spot{f.where, 0, r_.hmax};
+      SurfaceModel::Spot spot{f.where, 0, r_.largest};
       for (VertexId v : mesh_.triangles[std::size_t(f.triangle)].v) {
         spot.radius = std::max(spot.radius, kReach * distance(f.where, mesh_.points[v]));
         spot.size = std::min(spot.size, double(mesh_.sizes[v]));

@@ -7,14 +7,18 @@ namespace cavea {
 /// The lengths of a run, all set.
 struct ResolvedOptions {
   double hausd = 0, max_bulge = 0, hmin = 0, hmax = 0;
-  double hgrad = 1;  ///< infinity for no bound
+  /// The smallest and largest of all bounds, local ones too.
+  double smallest = 0, largest = 0;
+  std::vector<LocalParameters> local;
+  std::vector<std::pair<std::int32_t, double>> hausd_of_triangles;  ///< by reference
+  double hgrad = 1;                                                 ///< infinity for no bound
   std::optional<double> hgradreq;
   Freezes freeze;
-  bool uniform() const { return hmin == hmax; }
+  bool uniform() const { return smallest == largest; }
 };
 
 /// \param wished the sizes that the user's field asks for, between which a bound that is not set
-/// does not come; empty if there is no field
+/// does not come, nor above those of regions; empty if there is no field
 /// \pre validate(options) passed; box_diagonal > 0
 ResolvedOptions resolve(const Options& options, double box_diagonal, const SizeRange& wished = {});
 

@@ -1,7 +1,9 @@
-cavea_test(tools mesh io)
+cavea_test(tools remesh io)
 find_package(nlohmann_json REQUIRED)
 # The program's own parts that can be tested without running it.
-target_sources(cavea_test_tools PRIVATE ${PROJECT_SOURCE_DIR}/tools/cavea/staging.cpp)
+foreach(source IN ITEMS parameters parameters_json parameters_mmg3d staging)
+  target_sources(cavea_test_tools PRIVATE ${PROJECT_SOURCE_DIR}/tools/cavea/${source}.cpp)
+endforeach()
 target_include_directories(cavea_test_tools PRIVATE ${PROJECT_SOURCE_DIR}/tools/cavea)
 target_link_libraries(cavea_test_tools PRIVATE nlohmann_json::nlohmann_json fmt::fmt)
 

@@ -29,6 +29,8 @@ void check_names(const RemeshArguments& arguments) {
   if (!arguments.report.empty()) outputs.push_back({"--report", arguments.report});
   std::vector<NamedFile> inputs = {{"the input", arguments.input}};
   if (!arguments.sizes.empty()) inputs.push_back({"the file of --sol", arguments.sizes});
+  if (!arguments.parameters.empty())
+    inputs.push_back({"the file of --params", arguments.parameters});
   if (!arguments.surface.empty()) inputs.push_back({"the file of --surface", arguments.surface});
   check_outputs(inputs, outputs);
 }

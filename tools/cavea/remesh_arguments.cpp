@@ -6,6 +6,7 @@
 
 #include "cavea/base/error.h"
 #include "empty_values.h"
+#include "parameters.h"
 
 namespace cavea::program {
 namespace {
@@ -28,6 +29,10 @@ void add_size_flags(CLI::App& command, RemeshArguments& arguments) {
                            .add_option("--sol", arguments.sizes,
                                        "Wanted edge lengths at the vertices of IN (.sol, .solb)")
                            ->excludes(uniform);
+  command
+      .add_option("--params", arguments.parameters,
+                  "Parameters by reference and by region (.json, .mmg3d)")
+      ->excludes(uniform);
   command.add_option("--max-tets", options.max_tets,
                      "Number of tetrahedra to keep to, by larger edges where needed");
   command.add_flag("--optim", options.optim, "Keep the mesh's own edge lengths")
@@ -118,6 +123,11 @@ Options to_options(const RemeshArguments& arguments) {
     if (*arguments.threads < 1)
       throw OptionError(fmt::format("--threads must be at least 1, not {}", *arguments.threads));
     options.threads = *arguments.threads;
+  }
+  if (!arguments.parameters.empty()) {
+    Parameters parameters = read_parameters(arguments.parameters);
+    options.local = std::move(parameters.local);
+    options.size_regions = std::move(parameters.regions);
   }
   validate(options);
   return options;

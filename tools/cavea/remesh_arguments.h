@@ -13,10 +13,11 @@ namespace cavea::program {
 struct RemeshArguments {
   std::string input;
   std::vector<std::string> outputs;
-  std::string sizes;    ///< file of sizes; empty: none
-  std::string surface;  ///< file of the mesh whose surface is the truth; empty: the input
-  std::string report;   ///< empty: none
-  Options options;      ///< without threads, progress and cancel
+  std::string sizes;       ///< file of sizes; empty: none
+  std::string surface;     ///< file of the mesh whose surface is the truth; empty: the input
+  std::string parameters;  ///< file of local parameters; empty: none
+  std::string report;      ///< empty: none
+  Options options;         ///< without threads, progress and cancel
   std::optional<int> threads;
   bool no_angle = false, no_hgrad = false, no_hgradreq = false;
   bool verbose = false, quiet = false;
@@ -25,7 +26,8 @@ struct RemeshArguments {
 /// Adds the command and its flags; parsing fills `arguments`, which must outlive `app`.
 CLI::App* add_remesh_command(CLI::App& app, RemeshArguments& arguments);
 
-/// The options for the library. \throw OptionError naming the option, see validate().
+/// The options for the library, with the file of local parameters read. \throw OptionError naming
+/// the option, see validate(); InputError, see read_parameters()
 Options to_options(const RemeshArguments& arguments);
 
 }  // namespace cavea::program

@@ -25,6 +25,8 @@ Json options_json(const RunReport& run) {
   if (!run.arguments.sizes.empty()) options["sol"] = run.arguments.sizes;
   if (asked.hsiz) options["hsiz"] = *asked.hsiz;
   if (!run.arguments.no_angle) options["angle"] = asked.angle;
+  options["params"] = nullptr;
+  if (!run.arguments.parameters.empty()) options["params"] = run.arguments.parameters;
   options["max_tets"] = nullptr;
   if (asked.max_tets) options["max_tets"] = *asked.max_tets;
   options["optim"] = asked.optim;
