@@ -63,6 +63,7 @@ struct Options {
   bool detect_ridges = true;
 
   Freezes freeze;
+  bool directions = false;  ///< the report is to have the surface's normals and tangents
 
   double min_quality = 0.1;  ///< target: worst quality
   double min_conform = 90;   ///< target: percent of lengths within [1/sqrt2, sqrt2]

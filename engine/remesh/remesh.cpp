@@ -58,6 +58,7 @@ class Run {
       timed("measurement", [&] { distance_ = measure_distance(); });
     }
     timed("statistics", [&] { measure(); });
+    if (options_.directions) report_.directions = surface_directions(mesh_, *surface_);
     report_.peak_resident_bytes = peak_resident_bytes();
     report_.seconds = timer_.seconds();
     report_.tets_per_second = double(report_.after.counts.tets) / report_.seconds;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cavea/mesh/statistics.h"
+#include "cavea/surface/directions.h"
 
 namespace cavea {
 
@@ -51,6 +52,8 @@ struct Report {
   std::vector<Target> targets;
   std::vector<std::string> warnings;
   std::vector<std::int32_t> part_of_tet;  ///< of the last parallel round, by output tet
+
+  SurfaceDirections directions;  ///< by output vertex, if options.directions asks for them
 
   bool targets_met() const {
     for (const Target& t : targets)

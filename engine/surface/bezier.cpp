@@ -8,6 +8,12 @@ Vec3 BezierCurve::at(double t) const {
          t * t * t * points[3];
 }
 
+Vec3 BezierCurve::derivative(double t) const {
+  const double s = 1 - t;
+  return 3 * (s * s * (points[1] - points[0]) + 2 * s * t * (points[2] - points[1]) +
+              t * t * (points[3] - points[2]));
+}
+
 Vec3 BezierTriangle::at(double u, double v) const {
   const double w = 1 - u - v;
   // Edge 0 runs from a1 (u) to a2 (v), edge 1 from a2 (v) to a0 (w), edge 2 from a0 (w) to a1 (u).

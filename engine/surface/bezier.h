@@ -9,6 +9,7 @@ namespace cavea {
 struct BezierCurve {
   std::array<Vec3, 4> points;
   Vec3 at(double t) const;
+  Vec3 derivative(double t) const;
 };
 
 /// Cubic Bezier triangle (paper, section 3.2, equation (2)). Control points b_ijk of corners

@@ -151,10 +151,27 @@ SurfacePoint SurfaceModel::place_on_curve(const Vec3& guess, std::span<const Anc
   return result;
 }
 
+Vec3 SurfaceModel::tangent(const Anchor& anchor) const {
+  return normalized(curves_[-2 - anchor.facet].curve.derivative(anchor.u));
+}
+
+/// Between the normals of a facet at the ends of a curve's edge, which is one of its own.
+Vec3 SurfaceModel::normal_on_curve(std::int32_t facet, const Anchor& anchor) const {
+  const CurveEdge& c = curves_[-2 - anchor.facet];
+  Vec3 n{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (facets_[facet][k] == c.v[0]) n += (1 - anchor.u) * normals_[facet][k];
+    if (facets_[facet][k] == c.v[1]) n += anchor.u * normals_[facet][k];
+  }
+  return n;
+}
+
 Vec3 SurfaceModel::normal(const Anchor& anchor, int patch) const {
   Vec3 n{};
   for_each_start(anchor, patch, [&](std::int32_t f) {
-    if (!is_curve(anchor) && f == anchor.facet) {
+    if (is_curve(anchor)) {
+      n += normal_on_curve(f, anchor);
+    } else if (f == anchor.facet) {
       n = patches_[f].normal(anchor.u, anchor.v);
     } else if (norm2(n) == 0) {
       n = normals_[f][0] + normals_[f][1] + normals_[f][2];

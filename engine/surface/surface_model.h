@@ -51,6 +51,9 @@ class SurfaceModel {
   /// Unit normal of the model at an anchor, of the side of `patch`.
   Vec3 normal(const Anchor& anchor, int patch) const;
 
+  /// Unit tangent of the feature curve at an anchor on one, of either direction.
+  Vec3 tangent(const Anchor& anchor) const;
+
   /// How far the surface may be from the model at an anchor: hausd, or less where another sheet of
   /// the exterior boundary is so near that both could meet.
   double tolerance(const Anchor& anchor) const;
@@ -125,6 +128,7 @@ class SurfaceModel {
   static Vec3 clamp_to_chord(const Vec3& control, const Vec3& chord_point, double bulge);
   std::array<Vec3, 2> edge_controls(std::int32_t facet, int k) const;
 
+  Vec3 normal_on_curve(std::int32_t facet, const Anchor& anchor) const;
   std::int32_t corner_vertex(const Anchor& a) const;
   Anchor anchor_of(std::int32_t v) const;
   WalkResult walk(const Vec3& guess, std::int32_t start) const;

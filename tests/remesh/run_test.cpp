@@ -123,6 +123,30 @@ TEST(Remesh, ReportsWhatItDid) {
   EXPECT_TRUE(report.targets_met());
 }
 
+TEST(Remesh, TellsNormalsAndTangentsOnDemand) {
+  for (const bool asked : {false, true}) {
+    TetMesh mesh = built(kuhn_cube(2));
+    Options options = uniform(0.3);
+    options.directions = asked;
+    const Report report = remesh(mesh, {}, options);
+    EXPECT_EQ(report.directions.normals.empty(), !asked);
+    EXPECT_EQ(report.directions.tangents.empty(), !asked);
+    MeshData data = to_data(mesh);
+    add_directions(SurfaceDirections(report.directions), data);
+    // On the cube's faces and edges; they are planes and straight, up to rounding.
+    const auto on_side = [](double x) { return std::abs(2 * x - 1) > 1 - 1e-9; };
+    for (const auto& [v, n] : data.normal_at_vertices) {
+      const Vec3 &p = data.vertices[v], &normal = data.normals[n];
+      EXPECT_EQ(on_side(p.x) + on_side(p.y) + on_side(p.z), 1);
+      EXPECT_NEAR(dot(normal, 2 * p - Vec3{1, 1, 1}), 1, 1e-12);
+    }
+    for (const auto& [v, t] : data.tangent_at_vertices) {
+      const Vec3& p = data.vertices[v];
+      EXPECT_EQ(on_side(p.x) + on_side(p.y) + on_side(p.z), 2);
+    }
+  }
+}
+
 TEST(Remesh, SaysWhichTargetItMissed) {
   TetMesh mesh = built(kuhn_cube(2));
   Options options = uniform(0.3);

@@ -83,6 +83,22 @@ TEST_F(RunTest, NamesEveryFlatTetThatIsLeft) {
   EXPECT_NE(outcome.err.find("and 34 more"), std::string::npos) << outcome.err;
 }
 
+TEST_F(RunTest, WritesNormalsAndTangents) {
+  ASSERT_EQ(cavea({"remesh", kSample, "-o", "out.meshb", "--quiet"}).status, 0);
+  const MeshData out = read_mesh(file("out.meshb"), nullptr);
+  std::set<std::int32_t> surface, told(out.corners.begin(), out.corners.end());
+  for (const auto& t : out.triangles) surface.insert(t.begin(), t.end());
+  for (const auto& [v, n] : out.normal_at_vertices) {
+    EXPECT_TRUE(told.insert(v).second) << "vertex " << v << " is a corner, too";
+    EXPECT_NEAR(norm(out.normals[n]), 1, 1e-14);
+  }
+  for (const auto& [v, t] : out.tangent_at_vertices) {
+    told.insert(v);
+    EXPECT_NEAR(norm(out.tangents[t]), 1, 1e-14);
+  }
+  EXPECT_EQ(told, surface);
+}
+
 TEST_F(RunTest, RidsTheInputOfFlatTets) {
   write_mesh(file("in.meshb"), cube_with_flat_tets(7, false));
   const Outcome outcome =

@@ -75,6 +75,7 @@ RunReport remesh_file(const RemeshArguments& arguments, Options options,
   }
   const double read_seconds = timer.seconds();
   options.cancel = interrupt.flag();
+  options.directions = true;
   const SizeField field = field_of(arguments, loaded.mesh);
   RunReport run{arguments, run_library(loaded.mesh, field, options, arguments.quiet), read_seconds};
   std::vector<std::string>& warnings = run.report.warnings;
@@ -83,6 +84,7 @@ RunReport remesh_file(const RemeshArguments& arguments, Options options,
   MeshData data = to_data(loaded.mesh);
   loaded.mesh = {};  // a large mesh should not be held twice while it is written
   data.parts = std::move(run.report.part_of_tet);
+  add_directions(std::move(run.report.directions), data);
   const auto files = write_all(data, run, interrupt);
   if (!arguments.quiet) {
     print_warnings(warnings);
