@@ -124,11 +124,6 @@ std::vector<FormatInfo> formats() {
   return infos;
 }
 
-bool is_readable_format(const fs::path& path) {
-  const std::optional<Format> format = find_format(path, &Format::extension);
-  return format && format->read;
-}
-
 bool is_writable_format(const fs::path& path) {
   const std::optional<Format> format = find_format(path, &Format::extension);
   return format && format->write;

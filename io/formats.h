@@ -28,7 +28,6 @@ struct FormatInfo {
 };
 
 std::vector<FormatInfo> formats();
-bool is_readable_format(const std::filesystem::path& path);
 bool is_writable_format(const std::filesystem::path& path);
 
 /// Reads a mesh; the extension says the format (docs/formats.md). Indices come out zero-based and

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "cavea/base/atomic.h"
 #include "cavea/base/parallel.h"
-#include "cavea/partition/atomic.h"
 #include "cavea/partition/curve.h"
 #include "cavea/partition/kway.h"
 

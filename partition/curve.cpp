@@ -2,35 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cavea/base/parallel.h"
+#include "cavea/geometry/box.h"
 
 namespace cavea {
 namespace {
 
-struct Box {
-  Vec3 low, high;
-};
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Box kEmptyBox{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-
-Box join(const Box& a, const Box& b) {
-  return {
-      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
-}
-
 Box bounding_box(std::span<const Vec3> points) {
   return parallel_reduce(
-      points.size(), kEmptyBox,
+      points.size(), Box{},
       [&](std::size_t begin, std::size_t end) {
-        Box box = kEmptyBox;
-        for (std::size_t i = begin; i < end; ++i) box = join(box, {points[i], points[i]});
+        Box box;
+        for (std::size_t i = begin; i < end; ++i) box.add(points[i]);
         return box;
       },
-      join);
+      [](Box a, const Box& b) {
+        a.add(b);
+        return a;
+      });
 }
 
 /// Puts two zero bits before each of the 21 low bits (magic masks of the "bit twiddling hacks").
@@ -64,24 +54,6 @@ std::vector<std::uint64_t> curve_keys(std::span<const Vec3> points) {
               spread(cell(p.z, box.low.z, scale));
   });
   return keys;
-}
-
-std::vector<std::int32_t> curve_order(std::span<const Vec3> points) {
-  struct Entry {
-    std::uint64_t key;
-    std::int32_t index;
-  };
-  const std::vector<std::uint64_t> keys = curve_keys(points);
-  std::vector<Entry> entries(points.size());
-  parallel_for(entries.size(), [&](std::size_t i) {
-    entries[i] = {keys[i], static_cast<std::int32_t>(i)};
-  });
-  parallel_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.key != b.key ? a.key < b.key : a.index < b.index;
-  });
-  std::vector<std::int32_t> order(entries.size());
-  parallel_for(order.size(), [&](std::size_t k) { order[k] = entries[k].index; });
-  return order;
 }
 
 }  // namespace cavea

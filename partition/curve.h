@@ -15,7 +15,4 @@ inline constexpr int kCurveLevels = 21;
 /// A coordinate that is not a number counts as the lower end of the cube.
 std::vector<std::uint64_t> curve_keys(std::span<const Vec3> points);
 
-/// The points' indices in the order of (key, index) along the curve.
-std::vector<std::int32_t> curve_order(std::span<const Vec3> points);
-
 }  // namespace cavea

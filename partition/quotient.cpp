@@ -2,8 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cavea/base/parallel.h"
-#include "cavea/partition/atomic.h"
+#include "cavea/base/buckets.h"
 #include "cavea/partition/blocks.h"
 
 namespace cavea {
@@ -16,25 +15,6 @@ struct Contact {
   std::int32_t block;
   std::int64_t weight;
 };
-
-/// The items sorted by block, as compressed rows; the order within a row is left open.
-struct ItemsOfBlocks {
-  std::vector<std::int32_t> offsets, items;
-};
-
-ItemsOfBlocks group_by_block(const Blocks& blocks) {
-  const std::size_t n = blocks.of_item.size();
-  ItemsOfBlocks rows;
-  rows.offsets.assign(blocks.work.size() + 1, 0);
-  parallel_for(n, [&](std::size_t i) { atomic_add(rows.offsets[blocks.of_item[i]], 1); });
-  exclusive_scan(rows.offsets);
-  std::vector<std::int32_t> cursor = rows.offsets;
-  rows.items.resize(n);
-  parallel_for(n, [&](std::size_t i) {
-    rows.items[atomic_add(cursor[blocks.of_item[i]], 1)] = static_cast<std::int32_t>(i);
-  });
-  return rows;
-}
 
 /// Sorts the contacts by block and adds up those with the same one.
 void merge(std::vector<Contact>& contacts) {
@@ -52,20 +32,20 @@ void merge(std::vector<Contact>& contacts) {
 /// For each block its contacts with the blocks of higher id: one side only, so that the graph is
 /// symmetric whatever the caller's weights.
 std::vector<std::vector<Contact>> contacts_upwards(const Items& items, const Blocks& blocks) {
-  const ItemsOfBlocks rows = group_by_block(blocks);
+  const Buckets items_of(blocks.of_item.size(), blocks.work.size(), [&](std::size_t i, auto&& put) {
+    put(blocks.of_item[i], static_cast<std::uint32_t>(i));
+  });
   std::vector<std::vector<Contact>> up(blocks.work.size());
   parallel_for(
       up.size(),
       [&](std::size_t b) {
         std::vector<Contact> found;
-        for (std::int32_t k = rows.offsets[b]; k < rows.offsets[b + 1]; ++k) {
-          const std::int32_t item = rows.items[k];
+        for (const std::uint32_t item : items_of.of(b))
           for (int f = 0; f < 4; ++f) {
             const std::int32_t j = items.neighbours[item][f];
             if (j < 0 || blocks.of_item[j] <= static_cast<std::int32_t>(b)) continue;
             found.push_back({blocks.of_item[j], std::max(1, items.weight(item, f))});
           }
-        }
         merge(found);
         up[b].assign(found.begin(), found.end());
       },

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "cavea/base/atomic.h"
 #include "cavea/base/parallel.h"
-#include "cavea/partition/atomic.h"
 #include "cavea/partition/blocks.h"
 
 namespace cavea {

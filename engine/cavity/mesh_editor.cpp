@@ -55,7 +55,6 @@ MeshEditor::Face& MeshEditor::slot(VertexId a, VertexId b, VertexId c) {
     face.key = key;
     face.epoch = epoch_;
     face.open = false;
-    ++used_;
   }
   return face;
 }
@@ -210,7 +209,6 @@ void MeshEditor::commit(const Cavity& cavity) {
   const std::size_t faces = 4 * (cavity.removed_tets.size() + cavity.tets.size());
   while (table_.size() < 2 * faces) table_.assign(2 * table_.size(), {}), epoch_ = 0;
   if (++epoch_ == 0) table_.assign(table_.size(), {}), epoch_ = 1;
-  used_ = 0;
   open_faces_ = 0;
   open_hole(cavity);
   place_vertex(cavity);

@@ -57,7 +57,6 @@ class MeshEditor {
   std::vector<VertexId> free_vertices_;
   std::vector<Face> table_;  ///< open addressing; size a power of two
   std::uint32_t epoch_ = 0;
-  std::size_t used_ = 0;
   std::int64_t open_faces_ = 0, living_tets_ = 0;
   std::vector<TetId> created_;
 };

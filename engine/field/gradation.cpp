@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "cavea/base/atomic.h"
 #include "cavea/base/parallel.h"
-#include "cavea/mesh/buckets.h"
 
 namespace cavea {
 namespace {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "cavea/mesh/buckets.h"
+#include "cavea/base/atomic.h"
+#include "cavea/base/parallel.h"
 
 namespace cavea {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "cavea/mesh/buckets.h"
+#include "cavea/base/buckets.h"
 #include "cavea/mesh/tet_mesh.h"
 
 namespace cavea {

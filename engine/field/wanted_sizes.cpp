@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "cavea/base/atomic.h"
 #include "cavea/base/error.h"
 #include "cavea/base/parallel.h"
 #include "cavea/field/gradation.h"
 #include "cavea/field/local_bounds.h"
 #include "cavea/field/own_sizes.h"
-#include "cavea/mesh/buckets.h"
 
 namespace cavea {
 

@@ -7,16 +7,6 @@
 
 namespace cavea {
 
-void Box::add(const Vec3& p) {
-  low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-  high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-}
-
-void Box::add(const Box& b) {
-  add(b.low);
-  add(b.high);
-}
-
 BoxTree::BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {
   std::iota(order_.begin(), order_.end(), 0);
   if (order_.empty()) return;

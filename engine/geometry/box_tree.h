@@ -6,33 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "cavea/geometry/vec3.h"
+#include "cavea/geometry/box.h"
 
 namespace cavea {
-
-/// An axis-aligned box; empty (low > high) at first.
-struct Box {
-  Vec3 low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
-
-  void add(const Vec3& p);
-  void add(const Box& b);
-  /// Squared distance of a point from the box; 0 inside.
-  double distance2(const Vec3& p) const {
-    const auto outside = [](double x, double l, double h) {
-      return x < l ? l - x : x > h ? x - h : 0;
-    };
-    const double x = outside(p.x, low.x, high.x), y = outside(p.y, low.y, high.y),
-                 z = outside(p.z, low.z, high.z);
-    return x * x + y * y + z * z;
-  }
-  bool overlaps(const Box& b) const {
-    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y &&
-           low.z <= b.high.z && b.low.z <= high.z;
-  }
-
- private:
-  static constexpr double kFar = 1.7976931348623157e308;
-};
 
 /// A static bounding-volume tree over boxes: a complete binary tree in heap order, cut at the
 /// medians of the boxes' centres, so that no node needs a pointer. It depends on the boxes alone,

@@ -35,11 +35,4 @@ inline bool quality_exceeds(const Vec3& a, const Vec3& b, const Vec3& c, const V
   return volume > 0 && volume * volume > (limit * limit) * (edges * edges * edges);
 }
 
-/// Quality of a triangle: 4 sqrt 3 area / (sum of squared edges); 1 for an equilateral one.
-inline double triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double edges = distance2(a, b) + distance2(b, c) + distance2(c, a);
-  if (!(edges > 0)) return 0;
-  return 2.0 * 1.7320508075688772 * norm(cross(b - a, c - a)) / edges;
-}
-
 }  // namespace cavea

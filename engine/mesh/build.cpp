@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cavea/base/atomic.h"
 #include "cavea/base/error.h"
 #include "cavea/mesh/faces.h"
 #include "cavea/mesh/features.h"

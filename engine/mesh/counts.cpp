@@ -1,25 +1,12 @@
-#include <algorithm>
-#include <limits>
 
 #include "cavea/base/parallel.h"
+#include "cavea/geometry/box.h"
 #include "cavea/mesh/statistics.h"
 #include "cavea/mesh/surface_edges.h"
 #include "cavea/mesh/union_find.h"
 
 namespace cavea {
 namespace {
-
-struct Box {
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
-
-  bool empty() const { return !(low.x <= high.x); }
-  void add(const Vec3& p) { add(Box{p, p}); }
-  void add(const Box& b) {
-    low = {std::min(low.x, b.low.x), std::min(low.y, b.low.y), std::min(low.z, b.low.z)};
-    high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y), std::max(high.z, b.high.z)};
-  }
-};
 
 struct VertexSum {
   std::int64_t vertices = 0, corners = 0, required = 0;

@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "cavea/base/buckets.h"
 #include "cavea/geometry/predicates.h"
-#include "cavea/mesh/buckets.h"
 #include "cavea/mesh/tet_mesh.h"
 
 namespace cavea {

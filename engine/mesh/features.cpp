@@ -1,5 +1,6 @@
 #include "cavea/mesh/features.h"
 
+#include "cavea/base/atomic.h"
 #include "cavea/mesh/surface_edges.h"
 
 namespace cavea {

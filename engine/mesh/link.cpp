@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 
+#include "cavea/base/atomic.h"
 #include "cavea/base/error.h"
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/faces.h"

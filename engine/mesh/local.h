@@ -22,7 +22,6 @@ class TetMarker {
     epoch_of_[t] = epoch_;
     return true;
   }
-  bool marked(TetId t) const { return epoch_of_[t] == epoch_; }
 
  private:
   std::vector<std::uint32_t> epoch_of_;

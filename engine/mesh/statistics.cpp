@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "cavea/base/buckets.h"
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/dihedral.h"
 #include "cavea/geometry/metric.h"
-#include "cavea/mesh/buckets.h"
 
 namespace cavea {
 namespace {

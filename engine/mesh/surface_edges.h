@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "cavea/mesh/buckets.h"
+#include "cavea/base/buckets.h"
 #include "cavea/mesh/tet_mesh.h"
 
 namespace cavea {

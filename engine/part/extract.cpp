@@ -4,8 +4,8 @@
 #include <atomic>
 #include <tuple>
 
+#include "cavea/base/buckets.h"
 #include "cavea/base/parallel.h"
-#include "cavea/mesh/buckets.h"
 
 namespace cavea {
 namespace {

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "cavea/base/atomic.h"
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/predicates.h"
 #include "cavea/subdivide/subdivide.h"

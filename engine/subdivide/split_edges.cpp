@@ -1,7 +1,7 @@
 #include "cavea/subdivide/split_edges.h"
 
+#include "cavea/base/buckets.h"
 #include "cavea/base/parallel.h"
-#include "cavea/mesh/buckets.h"
 
 namespace cavea {
 namespace {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "cavea/base/atomic.h"
 #include "cavea/base/error.h"
 #include "cavea/base/parallel.h"
 #include "cavea/mesh/faces.h"

@@ -89,13 +89,6 @@ TEST(TetQuality, DoesNotDependOnScaleAndIsHighestForTheRegularTet) {
   }
 }
 
-TEST(TriangleQuality, IsOneForTheEquilateralTriangle) {
-  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  EXPECT_NEAR(triangle_quality(x, y, z), 1, 1e-14);
-  EXPECT_EQ(triangle_quality(x, y, 0.5 * (x + y)), 0);
-  EXPECT_LT(triangle_quality(x, y, 5 * z), 1);
-}
-
 /// The integral of dl / h along the edge, by Simpson's rule.
 double metric_length_by_quadrature(double length, double h0, double h1) {
   constexpr int kIntervals = 20000;

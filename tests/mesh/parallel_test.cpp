@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "cavea/mesh/buckets.h"
+#include "cavea/base/buckets.h"
 #include "cavea/mesh/renumber.h"
 #include "cavea/mesh/union_find.h"
 #include "support/meshes.h"

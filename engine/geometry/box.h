@@ -1,0 +1,37 @@
+#pragma once
+#include <algorithm>
+#include <limits>
+
+#include "cavea/geometry/vec3.h"
+
+namespace cavea {
+
+/// An axis-aligned box; empty (low > high) at first. A coordinate that is not a number is left out.
+struct Box {
+  Vec3 low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
+
+  bool empty() const { return !(low.x <= high.x); }
+  void add(const Vec3& p) { add(Box{p, p}); }
+  void add(const Box& b) {
+    low = {std::min(low.x, b.low.x), std::min(low.y, b.low.y), std::min(low.z, b.low.z)};
+    high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y), std::max(high.z, b.high.z)};
+  }
+  /// Squared distance of a point from the box; 0 inside.
+  double distance2(const Vec3& p) const {
+    const auto outside = [](double x, double l, double h) {
+      return x < l ? l - x : x > h ? x - h : 0;
+    };
+    const double x = outside(p.x, low.x, high.x), y = outside(p.y, low.y, high.y),
+                 z = outside(p.z, low.z, high.z);
+    return x * x + y * y + z * z;
+  }
+  bool overlaps(const Box& b) const {
+    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y &&
+           low.z <= b.high.z && b.low.z <= high.z;
+  }
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::max();
+};
+
+}  // namespace cavea
