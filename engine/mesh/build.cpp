@@ -10,6 +10,7 @@
 #include "cavea/base/error.h"
 #include "cavea/mesh/faces.h"
 #include "cavea/mesh/features.h"
+#include "cavea/mesh/internal_sheets.h"
 #include "cavea/mesh/orient_flat.h"
 #include "cavea/mesh/renumber.h"
 
@@ -56,6 +57,16 @@ void check_count(const std::vector<std::int32_t>& refs, std::size_t n, const cha
     throw InputError(fmt::format("{} references for {} {}", refs.size(), n, entity));
 }
 
+void check_normals(const MeshData& data) {
+  std::vector<std::int32_t> vertices, normals;
+  for (const auto& [v, normal] : data.normal_at_vertices) {
+    vertices.push_back(v);
+    normals.push_back(normal);
+  }
+  check_indices(vertices, data.vertices.size(), "vertex with a normal");
+  check_indices(normals, data.normals.size(), "normal");
+}
+
 void check_lists(const MeshData& data) {
   const std::size_t n = data.vertices.size();
   if (n > std::size_t(std::numeric_limits<VertexId>::max()))
@@ -70,6 +81,7 @@ void check_lists(const MeshData& data) {
   check_indices(data.required_edges, data.edges.size(), "required edge");
   check_indices(data.required_triangles, data.triangles.size(), "required triangle");
   check_indices(data.required_tets, data.tets.size(), "required tet");
+  check_normals(data);
   check_count(data.vertex_refs, n, "vertices");
   check_count(data.tet_refs, data.tets.size(), "tets");
   check_count(data.triangle_refs, data.triangles.size(), "triangles");
@@ -202,9 +214,17 @@ ListedTriangles find_listed(const MeshData& data, const std::vector<VertexId>& n
   return out;
 }
 
-/// Copies the listed triangles that lie on the surface, in their order.
+/// Whether the faces on three vertices are those of two tets of one reference.
+bool is_inside(const TetMesh& mesh, const SurfaceFaces& faces,
+               const std::array<VertexId, 3>& vertices) {
+  const FaceLink face = faces[faces.find(mesh, vertices).first];
+  return !is_surface_face(mesh, face.tet(), face.face());
+}
+
+/// Copies the listed triangles that are kept, in their order.
 void take_triangles(const MeshData& data, const std::vector<VertexId>& new_vertex,
-                    const ListedTriangles& listed, TetMesh& mesh, BuildSummary& summary) {
+                    const SurfaceFaces& faces, const ListedTriangles& listed, TetMesh& mesh,
+                    BuildSummary& summary) {
   const std::size_t n = data.triangles.size();
   const Renumbering ids(n, [&](std::size_t i) { return listed.kept[i] != 0; });
   mesh.triangles.resize(ids.count);
@@ -213,6 +233,7 @@ void take_triangles(const MeshData& data, const std::vector<VertexId>& new_verte
     Triangle& s = mesh.triangles[ids.new_id[i]];
     for (int k = 0; k < 3; ++k) s.v[k] = new_vertex[data.triangles[i][k]];
     if (!data.triangle_refs.empty()) s.ref = data.triangle_refs[i];
+    if (is_inside(mesh, faces, s.v)) s.tags = tag::kInternal;
   });
   for (const std::int32_t i : data.required_triangles)
     if (ids.new_id[i] != kNone) mesh.triangles[ids.new_id[i]].tags |= tag::kRequired;
@@ -225,7 +246,10 @@ void make_triangles(const SurfaceFaces& faces, const ListedTriangles& listed, Te
   const std::size_t n = mesh.points.size();
   const auto for_each_unlisted = [&](std::size_t v, auto&& f) {
     faces.for_each(mesh, VertexId(v), [&](SurfaceFaces::Slots slots) {
-      if (listed.at_slot[slots.first] == ListedTriangles::kUnlisted) f(slots);
+      const FaceLink face = faces[slots.first];
+      if (listed.at_slot[slots.first] == ListedTriangles::kUnlisted &&
+          is_surface_face(mesh, face.tet(), face.face()))
+        f(slots);
     });
   };
   std::vector<std::size_t> first(n, 0);
@@ -243,6 +267,17 @@ void make_triangles(const SurfaceFaces& faces, const ListedTriangles& listed, Te
     });
   });
   summary.made_triangles = std::int64_t(made);
+}
+
+/// The normals of used vertices, the first listed one of each; those without a direction are none.
+void take_normals(const MeshData& data, const std::vector<VertexId>& new_vertex, TetMesh& mesh) {
+  for (const auto& [v, normal] : data.normal_at_vertices)
+    if (new_vertex[v] != kNone && norm2(data.normals[normal]) > 0)
+      mesh.normals.push_back({new_vertex[v], data.normals[normal]});
+  auto& all = mesh.normals;
+  std::ranges::stable_sort(all, {}, &GivenNormal::vertex);
+  const auto twice = std::ranges::unique(all, {}, &GivenNormal::vertex);
+  all.erase(twice.begin(), twice.end());
 }
 
 }  // namespace
@@ -264,7 +299,7 @@ std::vector<std::string> BuildSummary::warnings() const {
   return out;
 }
 
-BuildResult build(const MeshData& data) {
+BuildResult build(const MeshData& data, const BuildOptions& options) {
   check_lists(data);
   check_tets(data);
   check_coordinates(data);
@@ -278,12 +313,14 @@ BuildResult build(const MeshData& data) {
   link_faces(mesh);
   if (out.summary.flat_tets != 0) orient_flat_tets(mesh);
 
-  const SurfaceFaces faces(mesh);
+  const SurfaceFaces faces(mesh, options.keep_internal ? FaceChoice::kAll : FaceChoice::kSurface);
   const ListedTriangles listed = find_listed(data, new_vertex, mesh, faces);
-  take_triangles(data, new_vertex, listed, mesh, out.summary);
+  take_triangles(data, new_vertex, faces, listed, mesh, out.summary);
   make_triangles(faces, listed, mesh, out.summary);
   attach_triangles(mesh, faces);
+  if (options.keep_internal) orient_internal_sheets(mesh);
   tag_features(mesh, data, new_vertex, out.summary);
+  take_normals(data, new_vertex, mesh);
   return out;
 }
 

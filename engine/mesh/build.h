@@ -18,6 +18,12 @@ struct BuildSummary {
   std::vector<std::string> warnings() const;
 };
 
+struct BuildOptions {
+  /// Keeps listed triangles between tets of one reference as surface. They may end inside the
+  /// volume; their rims are then features.
+  bool keep_internal = false;
+};
+
 struct BuildResult {
   TetMesh mesh;
   BuildSummary summary;
@@ -25,11 +31,11 @@ struct BuildResult {
 
 /// Makes a mesh out of lists: adjacency, surface triangles (the exterior boundary and the faces
 /// between references; the missing ones are made), their edges' tags and references, required
-/// entities and corners, sizes. Vertices keep their order; unused ones are dropped.
+/// entities and corners, sizes, normals. Vertices keep their order; unused ones are dropped.
 /// \throw InputError naming the entity: no tets, repeated vertex in a tet, coordinates not finite,
 /// a face in three tets, two tets on the same side of a face, more tets than 32-bit ids can hold,
 /// sizes that are no positive floats or not one a vertex.
-BuildResult build(const MeshData& data);
+BuildResult build(const MeshData& data, const BuildOptions& options = {});
 
 /// Links all faces of mesh.tets to each other: sets links, vertex_tets and qualities; faces that no
 /// second tet shares are left unset. Holes are skipped. A flat tet is linked whichever way it is
@@ -42,9 +48,9 @@ void link_faces(TetMesh& mesh);
 /// sides (of an interface the smaller reference first) and the faces' links. Turns triangles over,
 /// with their edges' tags, that are not counter-clockwise from outside of sides[0]. Only v need be
 /// right in a living triangle; the rest of it is kept.
-/// \pre faces that triangles cover are unset or linked to a tet of another reference.
-/// \throw InternalError a triangle that covers no face, more than two or two of one reference, or
-/// the same as another.
+/// \pre faces that triangles cover are unset or linked to a tet.
+/// \throw InternalError a triangle that covers no face, more than two, two of one reference
+/// although it is not tagged as internal (or two although it is), or the same as another.
 void attach_triangles(TetMesh& mesh);
 
 /// The lists of a mesh without holes, for a writer: with Ridges, Corners and required entities out

@@ -162,6 +162,9 @@ CheckResult check_indices(const TetMesh& mesh) {
   findings.add(inspect_all(mesh.triangles.size(), [&](std::size_t i, Findings& f) {
     inspect_triangle_indices(mesh, TriangleId(i), f);
   }));
+  for (const GivenNormal& given : mesh.normals)
+    if (!living_vertex(mesh, given.vertex))
+      findings.add("vertex {}: has a normal and is none", given.vertex);
   return findings.result();
 }
 
@@ -199,9 +202,17 @@ CheckResult check_triangles(const TetMesh& mesh) {
     const bool elsewhere =
         a.is_cut() || (s.tags & tag::kFrozen);  // its first side: in another part
     if (!a.is_tet() && !(elsewhere && b.is_tet())) findings.add("triangle {}: is on no tet", i);
-    if (a.is_tet() && b.is_tet() && mesh.tet_refs[a.tet()] == mesh.tet_refs[b.tet()])
-      findings.add("triangle {}: lies between tets {} and {} of one reference", i, a.tet(),
-                   b.tet());
+    const bool internal = s.tags & tag::kInternal;
+    if (a.is_tet() && b.is_tet()) {
+      const bool alike = mesh.tet_refs[a.tet()] == mesh.tet_refs[b.tet()];
+      if (alike && !internal)
+        findings.add("triangle {}: lies between tets {} and {} of one reference", i, a.tet(),
+                     b.tet());
+      if (internal && !alike)
+        findings.add("triangle {}: is tagged as internal and lies between references", i);
+    } else if (internal && !elsewhere) {
+      findings.add("triangle {}: is tagged as internal and lies on the boundary", i);
+    }
   });
 }
 

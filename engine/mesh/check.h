@@ -21,11 +21,12 @@ struct CheckOptions {
 };
 
 /// Verifies every invariant of the data structure and the mesh: links mutual and on the same three
-/// vertices, orientations positive, triangles exactly the exterior boundary and the interfaces
-/// between references, sides and vertex order of triangles, vertex_tets, tags of surface vertices,
-/// edge tags alike on all triangles of an edge, stored qualities. Holes are skipped. In a part,
-/// faces may be cuts, each cut number used once, and what depends on triangles of other parts is
-/// not asked of frozen vertices. Where an index is out of range, nothing else is looked at.
+/// vertices, orientations positive, triangles exactly the exterior boundary, the interfaces
+/// between references and what is tagged as internal, sides and vertex order of triangles,
+/// vertex_tets, tags of surface vertices, edge tags alike on all triangles of an edge, stored
+/// qualities. Holes are skipped. In a part, faces may be cuts, each cut number used once, and what
+/// depends on triangles of other parts is not asked of frozen vertices. Where an index is out of
+/// range, nothing else is looked at.
 CheckResult check(const TetMesh& mesh, const CheckOptions& options = {});
 
 }  // namespace cavea

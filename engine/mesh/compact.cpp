@@ -34,6 +34,8 @@ void compact(TetMesh& mesh) {
   keep(tets, mesh.tet_refs);
   keep(tets, mesh.tet_flags);
   keep(triangles, mesh.triangles);
+  for (GivenNormal& given : mesh.normals) given.vertex = vertices[given.vertex];
+  std::erase_if(mesh.normals, [](const GivenNormal& given) { return given.vertex == kNone; });
   parallel_for(mesh.points.size(),
                [&](std::size_t v) { mesh.vertex_tets[v] = tets[mesh.vertex_tets[v]]; });
   parallel_for(mesh.tets.size(), [&](std::size_t t) {

@@ -36,11 +36,20 @@ inline bool is_flat(const TetMesh& mesh, TetId t) {
   return orientation(a, b, c, d) == 0;
 }
 
-/// The faces that surface triangles may cover, those without a neighbour or with one of another
-/// reference, to be found by their vertices.
+/// Whether face f of tet t is surface whatever the lists say: it has no neighbour, or one of
+/// another reference. \pre no triangle is attached to it
+inline bool is_surface_face(const TetMesh& mesh, TetId t, int f) {
+  const FaceLink link = mesh.links[t][f];
+  return link.is_unset() || (link.is_tet() && mesh.tet_refs[link.tet()] != mesh.tet_refs[t]);
+}
+
+enum class FaceChoice { kSurface, kAll };
+
+/// The faces that surface triangles may cover, to be found by their vertices: those of
+/// is_surface_face(), or all, where internal triangles are kept.
 class SurfaceFaces {
  public:
-  explicit SurfaceFaces(const TetMesh& mesh);
+  explicit SurfaceFaces(const TetMesh& mesh, FaceChoice choice = FaceChoice::kSurface);
 
   /// Slots of the faces on the three vertices; (begin, begin) if there is none.
   using Slots = std::pair<std::size_t, std::size_t>;

@@ -124,7 +124,7 @@ std::size_t find_sides(const TetMesh& mesh, const SurfaceFaces& faces, Triangle&
   if (end - begin == 2) {
     s.sides[1] = faces[begin + 1];
     const std::int32_t r0 = mesh.tet_refs[s.sides[0].tet()], r1 = mesh.tet_refs[s.sides[1].tet()];
-    if (r0 == r1) return 2;
+    if ((r0 == r1) != bool(s.tags & tag::kInternal)) return 2;
     if (r1 < r0) std::swap(s.sides[0], s.sides[1]);
   }
   orient(mesh, s);
@@ -175,14 +175,12 @@ void link_faces(TetMesh& mesh) {
   });
 }
 
-SurfaceFaces::SurfaceFaces(const TetMesh& mesh)
+SurfaceFaces::SurfaceFaces(const TetMesh& mesh, FaceChoice choice)
     : faces_(mesh.tets.size(), mesh.points.size(), [&](std::size_t t, auto&& put) {
         if (!mesh.tet_alive(TetId(t))) return;
-        for (int f = 0; f < 4; ++f) {
-          const FaceLink link = mesh.links[t][f];
-          if (link.is_unset() || (link.is_tet() && mesh.tet_refs[link.tet()] != mesh.tet_refs[t]))
+        for (int f = 0; f < 4; ++f)
+          if (choice == FaceChoice::kAll || is_surface_face(mesh, TetId(t), f))
             put(sorted(face_vertices(mesh.tets[t], f))[0], static_cast<std::uint32_t>(4 * t + f));
-        }
       }) {
   parallel_for(faces_.keys(), [&](std::size_t v) {
     const auto codes = faces_.of(v);
@@ -218,6 +216,10 @@ void attach_triangles(TetMesh& mesh, const SurfaceFaces& faces) {
     throw InternalError(fmt::format("{} faces are covered by two triangles", twice));
 }
 
-void attach_triangles(TetMesh& mesh) { attach_triangles(mesh, SurfaceFaces(mesh)); }
+void attach_triangles(TetMesh& mesh) {
+  const bool internal = std::ranges::any_of(
+      mesh.triangles, [](const Triangle& s) { return (s.tags & tag::kInternal) != 0; });
+  attach_triangles(mesh, SurfaceFaces(mesh, internal ? FaceChoice::kAll : FaceChoice::kSurface));
+}
 
 }  // namespace cavea

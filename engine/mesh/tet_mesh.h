@@ -69,6 +69,8 @@ inline constexpr Tag kWasInterface = 512;
 /// Edge or vertex in which the volume touches itself: not all of its tets are reached from one of
 /// them through faces, so local operations see a part of them only and leave it as it is.
 inline constexpr Tag kPinched = 1024;
+/// Triangle between tets of one reference, kept on request.
+inline constexpr Tag kInternal = 2048;
 /// What makes a surface edge one that patches end at.
 inline constexpr Tag kFeature = kRidge | kReferenceEdge | kNonManifold | kRequired;
 }  // namespace tag
@@ -94,6 +96,12 @@ struct Triangle {
   bool alive() const { return v[0] != kNone; }
 };
 
+/// The surface's normal at a vertex as the input says; not of unit length, of either direction.
+struct GivenNormal {
+  VertexId vertex = kNone;
+  Vec3 normal;
+};
+
 /// A tetrahedral mesh with its surface triangles, as arrays. Ids of removed entities stay as holes
 /// (alive() is false) until compact(). All vectors of one kind of entity have the same length.
 struct TetMesh {
@@ -114,6 +122,8 @@ struct TetMesh {
 
   // surface
   std::vector<Triangle> triangles;
+  /// By vertex, at most one each; for the surface model, after which they are out of date.
+  std::vector<GivenNormal> normals;
 
   bool vertex_alive(VertexId v) const { return vertex_tets[v] != kNone; }
   bool tet_alive(TetId t) const { return tets[t][0] != kNone; }

@@ -58,6 +58,14 @@ void put_edges(const TetMesh& mesh, const Renumbering& vertices, MeshData& out) 
     });
 }
 
+void put_normals(const TetMesh& mesh, const Renumbering& vertices, MeshData& out) {
+  for (const GivenNormal& given : mesh.normals) {
+    if (vertices[given.vertex] == kNone) continue;
+    out.normal_at_vertices.push_back({vertices[given.vertex], std::int32_t(out.normals.size())});
+    out.normals.push_back(given.normal);
+  }
+}
+
 }  // namespace
 
 MeshData to_data(const TetMesh& mesh) {
@@ -67,6 +75,7 @@ MeshData to_data(const TetMesh& mesh) {
   put_tets(mesh, vertices, out);
   put_triangles(mesh, vertices, out);
   put_edges(mesh, vertices, out);
+  put_normals(mesh, vertices, out);
   return out;
 }
 

@@ -38,8 +38,8 @@ double worst_of_star(const OperatorContext& c, const Vec3& x, double limit) {
 Verdict edge_star(OperatorContext& c, VertexId id, Cavity& cavity) {
   cavity.clear();
   const Shell& s = c.shell;
-  if (s.cut || !s.closed || c.frozen_edge(s.p, s.q)) return Verdict::kFrozen;
   if (s.on_surface()) return Verdict::kBreaksFeature;
+  if (s.cut || !s.closed || c.frozen_edge(s.p, s.q)) return Verdict::kFrozen;
   double before = 1;
   for (TetId t : s.tets) {
     before = std::min(before, double(c.mesh.qualities[t]));

@@ -18,6 +18,7 @@
 #include "cavea/remesh/bulk.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/resolved.h"
+#include "cavea/remesh/stubborn.h"
 #include "cavea/surface/attach.h"
 #include "cavea/surface/crossings.h"
 #include "cavea/surface/distance.h"
@@ -36,6 +37,9 @@ constexpr int kRepairs = 7;
 
 /// A budget of tets is met when it is exceeded by no more than this share.
 constexpr double kBudgetMargin = 0.1;
+
+/// Worse tets are named in the report: where the domain allows, operators end above.
+constexpr double kSoundQuality = 0.3;
 
 /// One run of remesh(): the mesh it works on and what it reports.
 class Run {
@@ -91,6 +95,7 @@ class Run {
                   (r_.hgradreq && !required_sizes(mesh_).empty());
     resize();
     if (budget_.binds()) loosen();
+    mesh_.normals.clear();
     report_.before.lengths = length_statistics(mesh_);
   }
 
@@ -222,10 +227,9 @@ class Run {
     report_.surface_distance = distance_.max();
     report_.bulge = measure_bulge(*surface_);
     report_.after = {count(mesh_), quality_statistics(mesh_), length_statistics(mesh_)};
-    for (int o = 0; o < kOperators; ++o)
-      for (int v = 0; v < kVerdicts; ++v)
-        if (const std::int64_t n = verdicts_.count[std::size_t(o)][std::size_t(v)])
-          report_.verdicts.push_back({name(Operator(o)), name(Verdict(v)), n});
+    report_.verdicts = counts_of(verdicts_);
+    report_.stubborn = find_stubborn(mesh_, working_surface(), recipe(r_).back().cycle,
+                                     std::max(kSoundQuality, options_.min_quality));
     report_.hausd = r_.hausd, report_.hmin = r_.hmin, report_.hmax = r_.hmax,
     report_.hgrad = r_.hgrad;
     crossings_ = find_crossings(mesh_);

@@ -31,6 +31,15 @@ struct Target {
   std::string where;  ///< place of the worst offender, when missed
 };
 
+/// A tet that has stayed bad, and why.
+struct StubbornTet {
+  Vec3 where;  ///< its centroid
+  double quality = 0;
+  /// What each operator says to its six edges (a collapse both ways), four faces, four vertices.
+  std::vector<VerdictCount> verdicts;
+  std::string reason;  ///< what about the domain forbids better; empty if nothing is known
+};
+
 struct MeshSummary {
   Counts counts;
   QualityStatistics quality;
@@ -50,6 +59,8 @@ struct Report {
   double surface_distance = 0;  ///< two-sided, sampled, to the surface model
   double bulge = 0;  ///< largest distance of the surface model from the input's triangles
   std::vector<Target> targets;
+  /// The worst tets below a quality of 0.3 or the target, if that is higher; at most 20.
+  std::vector<StubbornTet> stubborn;
   std::vector<std::string> warnings;
   std::vector<std::int32_t> part_of_tet;  ///< of the last parallel round, by output tet
 

@@ -107,7 +107,8 @@ class SurfaceModel {
   void link_facets();
   std::vector<std::array<Vec3, 3>> all_corners() const;
   std::vector<Box> curve_boxes() const;
-  void set_normals();
+  std::vector<Vec3> given_normals(const TetMesh& mesh) const;
+  void set_normals(const std::vector<Vec3>& given);
   void set_tolerances();
   void set_tangents();
   void set_control_points();

@@ -11,7 +11,7 @@ namespace cavea {
 SurfaceModel::SurfaceModel(TetMesh& mesh, const Settings& settings) : settings_(settings) {
   take_facets(mesh);
   link_facets();
-  set_normals();
+  set_normals(given_normals(mesh));
   sheets_.emplace(all_corners(), facets_);
   set_tolerances();
   set_tangents();
@@ -107,9 +107,19 @@ std::vector<Box> SurfaceModel::curve_boxes() const {
   return boxes;
 }
 
+/// The unit normals that the mesh gives, by vertex; zero where it gives none.
+std::vector<Vec3> SurfaceModel::given_normals(const TetMesh& mesh) const {
+  std::vector<Vec3> given(points_.size());
+  for (const GivenNormal& g : mesh.normals)
+    if (const std::int32_t v = snapshot_vertex_[g.vertex]; v != kNone)
+      given[v] = normalized(g.normal);
+  return given;
+}
+
 /// Area-weighted normal of the smooth fan around each corner of each facet (paper, section 3.1);
-/// ridges end a fan, references do not.
-void SurfaceModel::set_normals() {
+/// ridges end a fan, references do not. Where the fan is all there is at the vertex, a given
+/// normal is right, but for its direction: of an interface no side is the outer one.
+void SurfaceModel::set_normals(const std::vector<Vec3>& given) {
   std::vector<Vec3> area(facets_.size());
   parallel_for(facets_.size(), [&](std::size_t f) {
     const auto [a, b, c] = facet_corners(std::int32_t(f));
@@ -119,8 +129,12 @@ void SurfaceModel::set_normals() {
   parallel_for(facets_.size(), [&](std::size_t f) {
     for (int k = 0; k < 3; ++k) {
       Vec3 sum = area[f];
-      for_fan(std::int32_t(f), k, true, [&](std::int32_t g) { sum += area[g]; });
-      normals_[f][k] = normalized(sum);
+      std::int32_t fan = 1;
+      for_fan(std::int32_t(f), k, true, [&](std::int32_t g) { sum += area[g], ++fan; });
+      const std::int32_t v = facets_[f][k];
+      const bool whole = fan == vertex_first_[v + 1] - vertex_first_[v];
+      const double along = whole ? dot(given[v], sum) : 0;
+      normals_[f][k] = along > 0 ? given[v] : along < 0 ? -given[v] : normalized(sum);
       // A fan that folds over itself has no normal to speak of; the facet's own keeps it flat here.
       if (dot(normals_[f][k], area[f]) <= 0) normals_[f][k] = normalized(area[f]);
     }

@@ -57,6 +57,32 @@ TEST(SurfaceModel, AnchorsOfTheMeshStandOnItsVertices) {
     }
 }
 
+TEST(SurfaceModel, TakesGivenNormalsOnSmoothFans) {
+  TetMesh mesh = build(test::ball(4)).mesh;
+  const Vec3 tilted = normalized({1, 0.2, -0.1});
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (distance(mesh.points[v], {1, 0, 0}) < 1e-9)
+      mesh.normals = {{VertexId(v), -3.0 * tilted}};  // of any length and direction
+  ASSERT_EQ(mesh.normals.size(), 1u);
+  const VertexId v = mesh.normals[0].vertex;
+  const auto shape = modelled(std::move(mesh), {.angle = 80});
+  const Anchor& a = shape.mesh.anchors[v];
+  EXPECT_LT(distance(shape.model.normal(a, 0), tilted), 1e-12);
+}
+
+TEST(SurfaceModel, TakesNoGivenNormalsOnRidges) {
+  TetMesh mesh = build(kuhn_cube(3)).mesh;
+  classify_features(mesh, {});
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (mesh.vertex_tags[v] & tag::kRidge) mesh.normals.push_back({VertexId(v), {1, 2, 3}});
+  const auto cube = modelled(std::move(mesh));
+  for (std::int32_t f = 0; f < std::int32_t(cube.model.facets()); ++f) {
+    const auto [a, b, c] = cube.model.facet_corners(f);
+    const Vec3 n = normalized(cross(b - a, c - a));
+    EXPECT_LT(std::abs(dot(cube.model.patch_of_facet(f).at(0.2, 0.3) - a, n)), 1e-15);
+  }
+}
+
 TEST(SurfaceModel, OfABallIsNearerToTheSphereThanItsFacets) {
   for (const int n : {4, 8}) {
     const auto ball = modelled_ball(n);

@@ -65,10 +65,10 @@ std::vector<std::filesystem::path> write_all(const MeshData& data, RunReport& ru
 RunReport remesh_file(const RemeshArguments& arguments, Options options,
                       const Interrupt& interrupt) {
   Timer timer;
-  LoadedMesh loaded = load_mesh(arguments.input, arguments.sizes);
+  LoadedMesh loaded = load_mesh(arguments.input, arguments.sizes, arguments.build);
   LoadedMesh surface;
   if (!arguments.surface.empty()) {
-    surface = load_mesh(arguments.surface, {});
+    surface = load_mesh(arguments.surface, {}, arguments.build);
     options.surface = &surface.mesh;
     for (const std::string& text : surface.warnings)
       loaded.warnings.push_back(arguments.surface + ": " + text);

@@ -7,18 +7,20 @@
 
 namespace cavea::program {
 
-LoadedMesh build_loaded(const MeshData& data, std::vector<std::string> warnings) {
-  BuildResult built = build(data);
+LoadedMesh build_loaded(const MeshData& data, std::vector<std::string> warnings,
+                        const BuildOptions& options) {
+  BuildResult built = build(data, options);
   for (std::string& text : built.summary.warnings()) warnings.push_back(std::move(text));
   return {std::move(built.mesh), built.summary, std::move(warnings)};
 }
 
-LoadedMesh load_mesh(const std::filesystem::path& file, const std::filesystem::path& sizes) {
+LoadedMesh load_mesh(const std::filesystem::path& file, const std::filesystem::path& sizes,
+                     const BuildOptions& options) {
   std::vector<std::string> warnings;
   MeshData data = read_mesh(file, &warnings);
   if (!sizes.empty()) data.sizes = read_sizes(sizes, data.vertices.size());
   try {
-    return build_loaded(data, std::move(warnings));
+    return build_loaded(data, std::move(warnings), options);
   } catch (const InputError& e) {
     throw InputError(file.string() + ": " + e.what());  // lists do not know where they came from
   }

@@ -15,11 +15,13 @@ struct LoadedMesh {
 };
 
 /// Builds the mesh and adds what build() put right to the warnings. \throw InputError
-LoadedMesh build_loaded(const MeshData& data, std::vector<std::string> warnings);
+LoadedMesh build_loaded(const MeshData& data, std::vector<std::string> warnings,
+                        const BuildOptions& options = {});
 
 /// Reads and builds; with the sizes at the vertices in the file `sizes`, unless its name is empty.
 /// \throw InputError
-LoadedMesh load_mesh(const std::filesystem::path& file, const std::filesystem::path& sizes);
+LoadedMesh load_mesh(const std::filesystem::path& file, const std::filesystem::path& sizes,
+                     const BuildOptions& options);
 
 /// A line on standard error for each.
 void print_warnings(const std::vector<std::string>& warnings);

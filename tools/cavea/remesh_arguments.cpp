@@ -53,11 +53,13 @@ void add_gradation_flags(CLI::App& command, RemeshArguments& arguments) {
       "The same from required entities, which keep their lengths");
 }
 
-void add_angle_flags(CLI::App& command, RemeshArguments& arguments) {
+void add_surface_flags(CLI::App& command, RemeshArguments& arguments) {
   CLI::Option* angle = command.add_option("--angle", arguments.options.angle,
                                           "Angle between normals, in degrees, that makes a ridge");
   angle->capture_default_str();
   command.add_flag("--no-angle", arguments.no_angle, "Detect no ridges")->excludes(angle);
+  command.add_flag("--keep-internal", arguments.build.keep_internal,
+                   "Keep triangles between tetrahedra of one reference as surface");
 }
 
 void add_freeze_flags(CLI::App& command, Freezes& freeze) {
@@ -102,7 +104,7 @@ CLI::App* add_remesh_command(CLI::App& app, RemeshArguments& arguments) {
   add_output_flags(*command, arguments);
   add_size_flags(*command, arguments);
   add_gradation_flags(*command, arguments);
-  add_angle_flags(*command, arguments);
+  add_surface_flags(*command, arguments);
   add_freeze_flags(*command, arguments.options.freeze);
   add_target_flags(*command, arguments.options);
   command->add_option("--threads", arguments.threads, "Number of threads [all cores]");

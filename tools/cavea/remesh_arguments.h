@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cavea/mesh/build.h"
 #include "cavea/remesh/options.h"
 
 namespace cavea::program {
@@ -17,7 +18,8 @@ struct RemeshArguments {
   std::string surface;     ///< file of the mesh whose surface is the truth; empty: the input
   std::string parameters;  ///< file of local parameters; empty: none
   std::string report;      ///< empty: none
-  Options options;         ///< without threads, progress and cancel
+  BuildOptions build;
+  Options options;  ///< without threads, progress and cancel
   std::optional<int> threads;
   bool no_angle = false, no_hgrad = false, no_hgradreq = false;
   bool verbose = false, quiet = false;

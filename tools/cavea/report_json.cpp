@@ -32,6 +32,7 @@ Json options_json(const RunReport& run) {
   options["optim"] = asked.optim;
   options["hgradreq"] = nullptr;
   if (asked.hgradreq && !run.arguments.no_hgradreq) options["hgradreq"] = *asked.hgradreq;
+  options["keep_internal"] = run.arguments.build.keep_internal;
   options["frozen"] = frozen_json(asked.freeze);
   options["min_quality"] = asked.min_quality;
   options["min_conform"] = asked.min_conform;
@@ -45,10 +46,20 @@ Json phases_json(const Report& report) {
   return phases;
 }
 
-Json verdicts_json(const Report& report) {
+Json verdicts_json(const std::vector<VerdictCount>& counts) {
   Json verdicts = Json::object();
-  for (const VerdictCount& v : report.verdicts) verdicts[v.op][v.verdict] = v.count;
+  for (const VerdictCount& v : counts) verdicts[v.op][v.verdict] = v.count;
   return verdicts;
+}
+
+Json stubborn_json(const Report& report) {
+  Json stubborn = Json::array();
+  for (const StubbornTet& t : report.stubborn)
+    stubborn.push_back({{"where", {t.where.x, t.where.y, t.where.z}},
+                        {"quality", t.quality},
+                        {"verdicts", verdicts_json(t.verdicts)},
+                        {"reason", t.reason}});
+  return stubborn;
 }
 
 Json targets_json(const Report& report) {
@@ -79,7 +90,8 @@ Json to_json(const RunReport& run) {
           {"phases", phases_json(report)},
           {"before", to_json(report.before)},
           {"after", to_json(report.after)},
-          {"verdicts", verdicts_json(report)},
+          {"verdicts", verdicts_json(report.verdicts)},
+          {"stubborn", stubborn_json(report)},
           {"surface_distance", report.surface_distance},
           {"bulge", report.bulge},
           {"targets", targets_json(report)},

@@ -57,6 +57,25 @@ std::string phases_text(const Report& report) {
   return t.text();
 }
 
+/// A line a tet: "edge_swap: 4 worse_quality, 2 breaks_feature; ...".
+std::string stubborn_text(const Report& report) {
+  std::string out =
+      fmt::format("stubborn tetrahedra, the worst first: {}\n", report.stubborn.size());
+  for (const StubbornTet& t : report.stubborn) {
+    out += fmt::format("  {:.3f} at ({:.6g}, {:.6g}, {:.6g})", t.quality, t.where.x, t.where.y,
+                       t.where.z);
+    if (!t.reason.empty()) out += ": " + t.reason;
+    std::string op;
+    for (const VerdictCount& v : t.verdicts) {
+      out += v.op == op ? ", " : "\n    " + v.op + ": ";
+      out += fmt::format("{} {}", v.count, v.verdict);
+      op = v.op;
+    }
+    out += "\n";
+  }
+  return out;
+}
+
 std::string verdicts_text(const Report& report) {
   TextTable t;
   t.row({"operator, verdict", "count"});
@@ -77,6 +96,7 @@ std::string to_text(const RunReport& run, bool verbose) {
   if (verbose) {
     blocks.push_back(phases_text(report));
     blocks.push_back(verdicts_text(report));
+    if (!report.stubborn.empty()) blocks.push_back(stubborn_text(report));
   }
   blocks.push_back(surface_text(report) + cost_text(run));
   blocks.push_back(targets_text(report));

@@ -1,0 +1,103 @@
+// Tets that stay bad are named, with what every operator says and what about the domain forbids
+// better.
+#include <map>
+
+#include "remesh/support.h"
+
+namespace cavea::test {
+namespace {
+
+/// A prism on a triangle with an angle of so many degrees at the z axis.
+MeshData wedge(double degrees) {
+  const double y = std::tan(degrees * std::numbers::pi / 180);
+  MeshData data;
+  for (const double z : {0.0, 1.0}) {
+    data.vertices.push_back({0, 0, z});
+    data.vertices.push_back({1, 0, z});
+    data.vertices.push_back({1, y, z});
+  }
+  data.vertex_refs.assign(6, 0);
+  data.tets = {{0, 1, 2, 3}, {1, 2, 3, 4}, {2, 3, 4, 5}};
+  data.tet_refs.assign(3, 1);
+  return data;
+}
+
+Report report_of(const MeshData& data, const Options& options) {
+  TetMesh mesh = built(data);
+  const Report report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  return report;
+}
+
+bool says(const StubbornTet& t, const std::string& what) {
+  return t.reason.find(what) != std::string::npos;
+}
+
+TEST(Stubborn, TetsInASharpWedgeAreNamedWithItsAngle) {
+  const Report report = report_of(wedge(8), uniform(0.1));
+  ASSERT_FALSE(report.stubborn.empty());
+  ASSERT_LE(report.stubborn.size(), 20u);
+  EXPECT_NEAR(report.stubborn[0].quality, report.after.quality.worst, 1e-6);
+  EXPECT_EQ(report.stubborn[0].where, report.after.quality.worst_place);
+  int sharp = 0;
+  for (std::size_t i = 0; i < report.stubborn.size(); ++i) {
+    const StubbornTet& t = report.stubborn[i];
+    EXPECT_LT(t.quality, 0.3);
+    if (i > 0) {
+      EXPECT_GE(t.quality, report.stubborn[i - 1].quality);
+    }
+    sharp += says(t, "the surface meets itself at 8 degrees");
+  }
+  EXPECT_GT(sharp, 0);
+}
+
+TEST(Stubborn, AWedgeThatIsBluntEnoughIsNoReason) {
+  for (const StubbornTet& t : report_of(wedge(14), uniform(0.1)).stubborn)
+    EXPECT_FALSE(says(t, "meets itself")) << t.reason;
+}
+
+TEST(Stubborn, EveryOperatorIsAsked) {
+  const std::map<std::string, std::int64_t> kQuestions = {{"edge_split", 6}, {"edge_collapse", 12},
+                                                          {"edge_swap", 6},  {"edge_star", 6},
+                                                          {"face_swap", 4},  {"relocate", 4}};
+  const Report report = report_of(wedge(8), uniform(0.1));
+  for (const StubbornTet& t : report.stubborn) {
+    std::map<std::string, std::int64_t> asked;
+    for (const VerdictCount& v : t.verdicts) asked[v.op] += v.count;
+    EXPECT_EQ(asked, kQuestions);
+  }
+}
+
+TEST(Stubborn, WhatIsFrozenIsNotAsked) {
+  Options options = uniform(0.1);
+  options.freeze.swap = options.freeze.move = true;
+  const Report report = report_of(wedge(8), options);
+  ASSERT_FALSE(report.stubborn.empty());
+  for (const StubbornTet& t : report.stubborn)
+    for (const VerdictCount& v : t.verdicts)
+      EXPECT_TRUE(v.op != "edge_swap" && v.op != "face_swap" && v.op != "relocate") << v.op;
+}
+
+TEST(Stubborn, TetsAcrossAThinWallAreNamedWithItsThickness) {
+  const Report report = report_of(thin_wall(), uniform(0.2));
+  ASSERT_FALSE(report.stubborn.empty());
+  int thin = 0;
+  for (const StubbornTet& t : report.stubborn) thin += says(t, "the wall is 0.02");
+  EXPECT_GT(thin, 0);
+}
+
+TEST(Stubborn, AreNoneInAGoodMesh) {
+  const Report report = report_of(kuhn_cube(4), uniform(0.1));
+  EXPECT_GE(report.after.quality.worst, 0.3);
+  EXPECT_TRUE(report.stubborn.empty());
+}
+
+TEST(Stubborn, IsWhatIsBelowTheTarget) {
+  Options options = uniform(0.1);
+  options.min_quality = 0.8;
+  const Report report = report_of(kuhn_cube(4), options);
+  EXPECT_EQ(report.stubborn.size(), 20u);
+}
+
+}  // namespace
+}  // namespace cavea::test
