@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <iostream>
 #include <map>
 
 #include "cavea/surface/crossings.h"
@@ -59,7 +60,9 @@ MeshData torus(int n) {
   return merged(std::move(data));
 }
 
-void expect_closer(const MeshData& coarse, const std::function<double(const Vec3&)>& distance) {
+/// Prints the figures that docs/paper.md shows.
+void expect_closer(const char* name, const MeshData& coarse,
+                   const std::function<double(const Vec3&)>& distance) {
   TetMesh mesh = built(coarse);
   const double before = farthest(mesh, distance);
   Options options;
@@ -68,13 +71,15 @@ void expect_closer(const MeshData& coarse, const std::function<double(const Vec3
   const Report report = remesh(mesh, {}, options);
   expect_sound(mesh);
   for (const Target& t : report.targets) EXPECT_TRUE(t.met) << t.name << " " << t.measured;
-  EXPECT_LT(farthest(mesh, distance), before / 2);
+  const double after = farthest(mesh, distance);
+  std::cout << name << ": " << before << " from the shape before, " << after << " after\n";
+  EXPECT_LT(after, before / 2);
 }
 
 TEST(Fidelity, SmoothModelIsCloserToTheShapeThanItsTriangles) {
-  expect_closer(ball(6), to_sphere);
-  expect_closer(cylinder(6), to_cylinder);
-  expect_closer(torus(24), to_torus);
+  expect_closer("sphere", ball(6), to_sphere);
+  expect_closer("cylinder", cylinder(6), to_cylinder);
+  expect_closer("torus", torus(24), to_torus);
 }
 
 TEST(Fidelity, FacetedResultsStayOnTheTriangles) {
