@@ -63,9 +63,12 @@ Phase polish(const ResolvedOptions& o) {
 
 }  // namespace
 
-std::vector<Phase> repair_recipe(const ResolvedOptions& o) {
+std::vector<Phase> mending_recipe(const ResolvedOptions& o) {
   Phase adapt = fine(o), finish = polish(o);
   adapt.rounds = 2;
+  adapt.ask = 0;
+  adapt.local = true;
+  adapt.cycle.shake_below = 0;
   finish.rounds = 1;
   return {adapt, finish};
 }

@@ -18,6 +18,8 @@ struct Phase {
   /// Asked of all tets again at the start, because this phase's limits differ from those before.
   std::uint8_t ask = 0;
   bool resize = true;  ///< sets the wanted sizes anew before each round
+  /// Asks for lengths again only where the wanted sizes have changed, not everywhere.
+  bool local = false;
   /// More rounds than `rounds` while the number of tets is not the budget's; after each round it
   /// tells what sizes come to.
   int budget_rounds = 0;
@@ -27,7 +29,7 @@ struct Phase {
 /// sizes, and a last polish of quality.
 std::vector<Phase> recipe(const ResolvedOptions& options);
 
-/// The phases that adapt an almost finished mesh to sizes that have changed in places.
-std::vector<Phase> repair_recipe(const ResolvedOptions& options);
+/// The phases that mend an almost finished mesh in the places that are asked.
+std::vector<Phase> mending_recipe(const ResolvedOptions& options);
 
 }  // namespace cavea

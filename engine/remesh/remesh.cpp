@@ -18,6 +18,7 @@
 #include "cavea/remesh/bulk.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/resolved.h"
+#include "cavea/remesh/standing.h"
 #include "cavea/remesh/stubborn.h"
 #include "cavea/surface/attach.h"
 #include "cavea/surface/crossings.h"
@@ -41,11 +42,16 @@ constexpr double kBudgetMargin = 0.1;
 /// Worse tets are named in the report: where the domain allows, operators end above.
 constexpr double kSoundQuality = 0.3;
 
+/// A mesh of which little is far from what is wanted is mended in those places alone if the rest is
+/// as good as results are, or always.
+enum class Effort { kWhereNeeded, kMend };
+
 /// One run of remesh(): the mesh it works on and what it reports.
 class Run {
  public:
-  Run(const TetMesh& input, const SizeField& field, const Options& options)
-      : mesh_(input), field_(field), options_(options), budget_(options.max_tets) {
+  Run(const TetMesh& input, const SizeField& field, const Options& options,
+      Effort effort = Effort::kWhereNeeded)
+      : mesh_(input), field_(field), options_(options), effort_(effort), budget_(options.max_tets) {
     compact(mesh_);
     if (options.optim) field_ = own_sizes(mesh_);
     r_ = resolve(options, box_diagonal(mesh_), wished_range(mesh_, field_));
@@ -54,8 +60,10 @@ class Run {
 
   void operator()() {
     timed("analysis", [&] { analyse(); });
-    timed("bulk", [&] { refine(); });
-    for (const Phase& phase : recipe(r_)) timed(phase.name, [&] { run_phase(phase); });
+    mends_ = ask_if_it_stands();
+    if (!mends_) timed("bulk", [&] { refine(); });
+    for (const Phase& phase : mends_ ? mending_recipe(r_) : recipe(r_))
+      timed(phase.name, [&] { run_phase(phase); });
     timed("measurement", [&] { distance_ = measure_distance(); });
     for (int k = 0; k < kRepairs && may_repair() && distance_.worse().worst > kMeasuredShare; ++k) {
       timed("repair", [&] { repair(); });
@@ -64,8 +72,12 @@ class Run {
     timed("statistics", [&] { measure(); });
     if (options_.directions) report_.directions = surface_directions(mesh_, *surface_);
     report_.peak_resident_bytes = peak_resident_bytes();
-    report_.seconds = timer_.seconds();
-    report_.tets_per_second = double(report_.after.counts.tets) / report_.seconds;
+  }
+
+  /// Whether the input was as good as the result: it is then better left as it is.
+  bool in_vain() const {
+    return may_mend_ && !mends_ &&
+           gained_nothing(report_.before, report_.after, options_.min_conform);
   }
 
   TetMesh mesh_;
@@ -158,6 +170,29 @@ class Run {
                    [&] { resize(); });
   }
 
+  /// Whether the input is what is asked for, but for places: then those alone are asked, so that
+  /// remeshing a result changes next to nothing.
+  bool ask_if_it_stands() {
+    may_mend_ = budget_.met(mesh_) && few_are_poor(mesh_) &&
+                !(options_.surface && measure_distance().worse().worst > 1);
+    if (!may_mend_) return false;
+    if (effort_ == Effort::kWhereNeeded &&
+        !is_as_good_as_results(report_.before, r_.uniform(), options_.min_conform))
+      return false;
+    ask_only_poor(mesh_);
+    if (!options_.surface) trust_facets();
+    return true;
+  }
+
+  /// A mesh that stands is as fine as its surface asks for: its triangles are within the tolerance
+  /// of what they stand for, and a smooth surface that bulges more is not that.
+  void trust_facets() {
+    constexpr double kTrusted = 0.9;  // so that what lies between samples is within, too
+    r_.max_bulge = std::min(r_.max_bulge, kTrusted * r_.hausd);
+    take_model(surface_, 1);
+    if (loose_) loosen();
+  }
+
   /// Repairs make the surface finer, which would break a budget that binds.
   bool may_repair() const {
     return !r_.uniform() && !r_.freeze.insert && !r_.freeze.surface && !budget_.binds();
@@ -169,10 +204,7 @@ class Run {
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= phase.ask;
     for (int round = 1; round <= phase.rounds || more_for_budget(phase, round); ++round) {
       tell(phase.name, round);
-      if (phase.resize && round > 1 && sizes_vary_) {
-        resize();
-        for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskLength;
-      }
+      if (phase.resize && round > 1 && sizes_vary_) resize_and_ask(phase.local);
       if (phase.growth > 0)
         settings.most_tets = std::int64_t(phase.growth * double(mesh_.tets.size()) /
                                           part_count(std::int64_t(mesh_.tets.size()))) +
@@ -183,6 +215,15 @@ class Run {
       if (phase.budget_rounds > 0) budget_.learn(mesh_);
       if (settled(phase, result.cycle)) break;
     }
+  }
+
+  void resize_and_ask(bool only_where_changed) {
+    const std::vector<float> before = mesh_.sizes;
+    resize();
+    if (only_where_changed)
+      ask_changed_lengths(mesh_, before);
+    else
+      ask_lengths(mesh_);
   }
 
   bool more_for_budget(const Phase& phase, int round) const {
@@ -219,8 +260,8 @@ class Run {
     std::for_each(distance_.far_facets.begin(), distance_.far_facets.end(), add);
     std::for_each(distance_.far_triangles.begin(), distance_.far_triangles.end(), add);
     surface_->add_spots(spots);
-    resize();
-    for (Phase phase : repair_recipe(r_)) run_phase(phase);
+    resize_and_ask(true);
+    for (const Phase& phase : mending_recipe(r_)) run_phase(phase);
   }
 
   void measure() {
@@ -264,6 +305,9 @@ class Run {
 
   SizeField field_;
   const Options& options_;
+  Effort effort_;
+  bool may_mend_ = false;  ///< little of the input is far from what is wanted
+  bool mends_ = false;     ///< that alone is asked
   std::vector<Crossing> crossings_;
   ResolvedOptions r_;
   bool sizes_vary_ = true;  ///< over space, so that new vertices want theirs set anew
@@ -280,14 +324,24 @@ Report remesh(TetMesh& mesh, const SizeField& field, const Options& options) {
   validate(options);
   if (options.optim && field) throw OptionError("optim excludes a field of sizes");
   const int threads = options.threads > 0 ? options.threads : default_threads();
+  const Timer timer;
   Report report;
   run_in_arena(threads, [&] {
-    Run run(mesh, field, options);
-    run();
-    report = std::move(run.report_);
-    mesh = std::move(run.mesh_);
+    std::optional<Run> run;
+    run.emplace(mesh, field, options);
+    (*run)();
+    if (run->in_vain()) {
+      const std::vector<PhaseTime> before = std::move(run->report_.phases);
+      run.emplace(mesh, field, options, Effort::kMend);
+      (*run)();
+      run->report_.phases.insert(run->report_.phases.begin(), before.begin(), before.end());
+    }
+    report = std::move(run->report_);
+    mesh = std::move(run->mesh_);
   });
   report.threads = threads;
+  report.seconds = timer.seconds();
+  report.tets_per_second = double(report.after.counts.tets) / report.seconds;
   return report;
 }
 

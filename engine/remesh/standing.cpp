@@ -1,0 +1,87 @@
+#include "cavea/remesh/standing.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "cavea/base/parallel.h"
+#include "cavea/geometry/metric.h"
+
+namespace cavea {
+namespace {
+
+/// Mean qualities that runs reach where the size is uniform, and where it varies: 0.80 to 0.86 on
+/// bodies of all kinds. A mesh below may have something to gain, but if it is thin everywhere.
+constexpr double kUniformMean = 0.80, kVaryingMean = 0.78;
+
+/// Runs from two meshes of the same sizes differ by less in the mean quality, and in the share of
+/// edges that conform.
+constexpr double kGain = 0.01;
+
+/// Results have no worse tets where the domain does not force them.
+constexpr double kPoorQuality = 0.4;
+
+/// Lengths that no result has where operators were free. Within these bounds a result is also in
+/// the sizes that follow from its own surface, which is not quite that of the input.
+constexpr double kTooLong = 2.6, kTooShort = 0.3;
+
+/// More poor tets than this share are not exceptions.
+constexpr double kFew = 0.01;
+
+bool is_poor(const TetMesh& m, TetId t) {
+  if (m.qualities[t] < kPoorQuality) return true;
+  return std::ranges::any_of(kEdgeVertices, [&](const auto& e) {
+    const VertexId a = m.tets[t][e[0]], b = m.tets[t][e[1]];
+    const double length = metric_length(distance(m.points[a], m.points[b]), m.sizes[a], m.sizes[b]);
+    return length > kTooLong || length < kTooShort;
+  });
+}
+
+template <class Ask>
+void ask_lengths_where(TetMesh& m, Ask&& ask) {
+  parallel_for(m.tets.size(), [&](std::size_t t) {
+    if (m.tet_alive(TetId(t)) && std::ranges::any_of(m.tets[t], ask))
+      m.tet_flags[t] |= tet_flag::kAskLength;
+  });
+}
+
+}  // namespace
+
+bool is_as_good_as_results(const MeshSummary& now, bool uniform, double conform) {
+  return now.quality.mean >= (uniform ? kUniformMean : kVaryingMean) &&
+         now.lengths.conforming_percent() >= conform;
+}
+
+bool gained_nothing(const MeshSummary& before, const MeshSummary& after, double conform) {
+  const double was = before.lengths.conforming_percent(), is = after.lengths.conforming_percent();
+  const bool met_now = was < conform && is >= conform;
+  return !met_now && is < was + 100 * kGain && after.quality.mean < before.quality.mean + kGain;
+}
+
+bool few_are_poor(const TetMesh& mesh) {
+  const auto poor = parallel_reduce(
+      mesh.tets.size(), std::int64_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::int64_t n = 0;
+        for (std::size_t t = begin; t < end; ++t) n += is_poor(mesh, TetId(t));
+        return n;
+      },
+      std::plus<>{});
+  return double(poor) <= kFew * double(mesh.tets.size());
+}
+
+void ask_only_poor(TetMesh& mesh) {
+  parallel_for(mesh.tets.size(), [&](std::size_t t) {
+    mesh.tet_flags[t] &= tet_flag::kRequired;
+    if (is_poor(mesh, TetId(t))) mesh.tet_flags[t] |= tet_flag::kAskAll;
+  });
+}
+
+void ask_lengths(TetMesh& mesh) {
+  ask_lengths_where(mesh, [](VertexId) { return true; });
+}
+
+void ask_changed_lengths(TetMesh& mesh, const std::vector<float>& sizes_before) {
+  ask_lengths_where(mesh, [&](VertexId v) { return mesh.sizes[v] != sizes_before[v]; });
+}
+
+}  // namespace cavea

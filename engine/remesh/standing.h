@@ -1,0 +1,31 @@
+#pragma once
+// Whether a mesh stands: it is on the whole what a run would make of it.
+#include <vector>
+
+#include "cavea/mesh/tet_mesh.h"
+#include "cavea/remesh/report.h"
+
+namespace cavea {
+
+/// Whether the mean quality is what runs reach on bodies that are nowhere thin, and `conform`
+/// percent of the lengths conform.
+bool is_as_good_as_results(const MeshSummary& now, bool uniform, double conform);
+
+/// Whether quality and lengths have not become better by more than chance would make them, nor the
+/// target of conforming lengths met thereby.
+bool gained_nothing(const MeshSummary& before, const MeshSummary& after, double conform);
+
+/// Whether the tets that are far from what is wanted, in quality or in length, are so few that they
+/// may be mended one by one. Needs the sizes.
+bool few_are_poor(const TetMesh& mesh);
+
+/// Leaves only those tets asked.
+void ask_only_poor(TetMesh& mesh);
+
+/// Asks the lengths of all tets again.
+void ask_lengths(TetMesh& mesh);
+
+/// Asks the lengths of tets at vertices whose wanted size was another one.
+void ask_changed_lengths(TetMesh& mesh, const std::vector<float>& sizes_before);
+
+}  // namespace cavea

@@ -1,0 +1,134 @@
+// A mesh that is what is asked for is left as it is, but for what is wrong in it.
+#include <set>
+
+#include "cavea/surface/crossings.h"
+#include "remesh/support.h"
+
+namespace cavea::test {
+namespace {
+
+using Place = std::array<double, 3>;
+
+std::set<std::array<Place, 4>> places_of_tets(const TetMesh& mesh) {
+  std::set<std::array<Place, 4>> all;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (!mesh.tet_alive(TetId(t))) continue;
+    std::array<Place, 4> tet;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec3& p = mesh.points[mesh.tets[t][k]];
+      tet[k] = {p.x, p.y, p.z};
+    }
+    std::sort(tet.begin(), tet.end());
+    all.insert(tet);
+  }
+  return all;
+}
+
+/// Share of the tets of `before` that are not in `after`, by the places of their vertices.
+double share_changed(const TetMesh& before, const TetMesh& after) {
+  const auto now = places_of_tets(after), then = places_of_tets(before);
+  std::size_t gone = 0;
+  for (const auto& tet : then) gone += !now.count(tet);
+  return double(gone) / double(then.size());
+}
+
+/// Remeshed once and written: a file has no more than this.
+MeshData remeshed(const MeshData& data, const Options& options) {
+  TetMesh mesh = built(data);
+  remesh(mesh, {}, options);
+  return to_data(mesh);
+}
+
+Options with_tolerance(double hausd) {
+  Options options;
+  options.hausd = hausd;
+  return options;
+}
+
+struct Body {
+  std::string name;
+  MeshData data;
+  Options options;
+};
+
+std::vector<Body> bodies() {
+  const bool small = kSanitized;
+  Options faceted = with_tolerance(0.004);
+  faceted.faceted = true;
+  return {{"cube", kuhn_cube(4), {}},
+          {"uniform_cube", kuhn_cube(4), uniform(small ? 0.15 : 0.08)},
+          {"octants", octants(4), uniform(0.1)},
+          {"ball", ball(8), with_tolerance(0.004)},
+          {"uniform_ball", ball(6), uniform(0.15)},
+          {"cylinder", cylinder(8), with_tolerance(0.01)},
+          {"faceted_cylinder", cylinder(8), faceted},
+          {"frame", frame(), uniform(0.06)},
+          {"thin_wall", thin_wall(), uniform(0.035)}};
+}
+
+class Again : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Again, ChangesHardlyAnything) {
+  const Body body = bodies()[GetParam()];
+  SCOPED_TRACE(body.name);
+  for (const std::uint64_t seed : {0, 1}) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const MeshData first = remeshed(shuffled(body.data, seed), body.options);
+    const TetMesh start = built(first);
+    TetMesh mesh = start;
+    const Report report = remesh(mesh, {}, body.options);
+    expect_sound(mesh);
+    EXPECT_LT(share_changed(start, mesh), 0.005);
+    EXPECT_LE(report.surface_distance, report.hausd);
+    EXPECT_TRUE(find_crossings(mesh).empty());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Again, testing::Range<std::size_t>(0, bodies().size()),
+                         [](const auto& number) { return bodies()[number.param].name; });
+
+TEST(Standing, WhatIsWrongInAPlaceIsMendedThere) {
+  const Options options = uniform(0.06);
+  MeshData data = remeshed(kuhn_cube(4), options);
+  // An inner vertex almost in a face of its ball.
+  const TetMesh good = built(data);
+  std::size_t spoiled = 0;
+  while (good.vertex_tags[spoiled] & tag::kSurface) ++spoiled;
+  const TetId t = good.vertex_tets[spoiled];
+  const int k = good.local_index(t, VertexId(spoiled));
+  Vec3 face;
+  for (const int i : kFaceVertices[k]) face += good.points[good.tets[t][i]] / 3;
+  data.vertices[spoiled] += 0.95 * (face - data.vertices[spoiled]);
+  const TetMesh start = built(data);
+  TetMesh mesh = start;
+  const Report report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  EXPECT_LT(report.before.quality.worst, 0.2);
+  EXPECT_GT(report.after.quality.worst, 0.3);
+  EXPECT_LT(share_changed(start, mesh), 0.02);
+  EXPECT_GT(share_changed(start, mesh), 0);
+}
+
+TEST(Standing, OtherSizesAreFollowedAllTheSame) {
+  const TetMesh start = built(remeshed(kuhn_cube(4), uniform(0.1)));
+  for (const double size : {0.06, 0.16}) {
+    TetMesh mesh = start;
+    const Report report = remesh(mesh, {}, uniform(size));
+    expect_sound(mesh);
+    expect_good(report);
+  }
+}
+
+TEST(Standing, AnotherSurfaceIsFollowedAllTheSame) {
+  const TetMesh truth = built(ball(10));
+  Options options = with_tolerance(0.01);
+  // Smaller by ten tolerances, and as good a mesh as can be.
+  TetMesh mesh = built(mapped(remeshed(ball(6), options), [](const Vec3& p) { return 0.9 * p; }));
+  options.surface = &truth;
+  const Report report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  EXPECT_LE(report.surface_distance, report.hausd);
+}
+
+}  // namespace
+}  // namespace cavea::test
