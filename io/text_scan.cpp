@@ -104,12 +104,12 @@ std::size_t count_tokens(std::string_view text) {
   // Blocks short enough for a sum in one byte, which the compiler makes vector code of.
   constexpr std::size_t kBlock = 240;
   for (std::size_t i = 1; i < text.size(); i += kBlock) {
-    const char* p = text.data() + i;
+    const char *before = text.data() + i - 1, *here = before + 1;
     const std::size_t n = std::min(kBlock, text.size() - i);
     unsigned char begins = 0;
     for (std::size_t k = 0; k < n; ++k)
       begins =
-          static_cast<unsigned char>(begins + (int{is_space(p[k - 1])} & int{!is_space(p[k])}));
+          static_cast<unsigned char>(begins + (int{is_space(before[k])} & int{!is_space(here[k])}));
     total += begins;
   }
   return total;

@@ -276,8 +276,10 @@ void take_normals(const MeshData& data, const std::vector<VertexId>& new_vertex,
       mesh.normals.push_back({new_vertex[v], data.normals[normal]});
   auto& all = mesh.normals;
   std::ranges::stable_sort(all, {}, &GivenNormal::vertex);
-  const auto twice = std::ranges::unique(all, {}, &GivenNormal::vertex);
-  all.erase(twice.begin(), twice.end());
+  const auto of_one = [](const GivenNormal& a, const GivenNormal& b) {
+    return a.vertex == b.vertex;
+  };
+  all.erase(std::unique(all.begin(), all.end(), of_one), all.end());
 }
 
 }  // namespace

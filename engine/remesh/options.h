@@ -28,6 +28,8 @@ struct Freezes {
   /// The surface, exterior and interfaces, stays to the bit: it is then the truth, and the lengths
   /// of its edges are the sizes wanted there.
   bool surface = false;
+
+  bool any_operator() const { return insert || collapse || swap || move; }
 };
 
 /// What the caller asks for. Lengths are in the mesh's own unit; what is not set follows from the

@@ -42,8 +42,8 @@ constexpr double kBudgetMargin = 0.1;
 /// Worse tets are named in the report: where the domain allows, operators end above.
 constexpr double kSoundQuality = 0.3;
 
-/// A mesh of which little is far from what is wanted is mended in those places alone if the rest is
-/// as good as results are, or always.
+/// A mesh is only mended in places if all but a few of its tets are as good as those of results, or
+/// in any case.
 enum class Effort { kWhereNeeded, kMend };
 
 /// One run of remesh(): the mesh it works on and what it reports.
@@ -76,8 +76,7 @@ class Run {
 
   /// Whether the input was as good as the result: it is then better left as it is.
   bool in_vain() const {
-    return may_mend_ && !mends_ &&
-           gained_nothing(report_.before, report_.after, options_.min_conform);
+    return may_mend_ && !mends_ && gained_nothing(report_.before, report_.after, options_);
   }
 
   TetMesh mesh_;
@@ -173,13 +172,13 @@ class Run {
   /// Whether the input is what is asked for, but for places: then those alone are asked, so that
   /// remeshing a result changes next to nothing.
   bool ask_if_it_stands() {
-    may_mend_ = budget_.met(mesh_) && few_are_poor(mesh_) &&
+    may_mend_ = !r_.freeze.any_operator() && budget_.met(mesh_) &&
                 !(options_.surface && measure_distance().worse().worst > 1);
-    if (!may_mend_) return false;
-    if (effort_ == Effort::kWhereNeeded &&
-        !is_as_good_as_results(report_.before, r_.uniform(), options_.min_conform))
-      return false;
-    ask_only_poor(mesh_);
+    const bool few = few_are_poor(mesh_);
+    const bool good = is_as_good_as_results(report_.before, r_.uniform(), options_.min_conform);
+    if (!may_mend_ || (effort_ == Effort::kWhereNeeded && !(few && good))) return false;
+    ask_nothing(mesh_);
+    if (few) ask_poor(mesh_);
     if (!options_.surface) trust_facets();
     return true;
   }
@@ -306,8 +305,9 @@ class Run {
   SizeField field_;
   const Options& options_;
   Effort effort_;
-  bool may_mend_ = false;  ///< little of the input is far from what is wanted
-  bool mends_ = false;     ///< that alone is asked
+  bool may_mend_ =
+      false;            ///< the input has the surface and number of tets wanted, operators are free
+  bool mends_ = false;  ///< only poor tets are asked
   std::vector<Crossing> crossings_;
   ResolvedOptions r_;
   bool sizes_vary_ = true;  ///< over space, so that new vertices want theirs set anew

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/metric.h"
@@ -13,9 +14,11 @@ namespace {
 /// bodies of all kinds. A mesh below may have something to gain, but if it is thin everywhere.
 constexpr double kUniformMean = 0.80, kVaryingMean = 0.78;
 
-/// Runs from two meshes of the same sizes differ by less in the mean quality, and in the share of
-/// edges that conform.
+/// Runs from two meshes of the same sizes differ by less in the mean quality, in the share of poor
+/// tets, and in the share of edges that conform.
 constexpr double kGain = 0.01;
+/// The same for the worst quality, which is that of a single tet.
+constexpr double kWorstGain = 0.05;
 
 /// Results have no worse tets where the domain does not force them.
 constexpr double kPoorQuality = 0.4;
@@ -36,6 +39,13 @@ bool is_poor(const TetMesh& m, TetId t) {
   });
 }
 
+/// Of quality below 0.4, which is kPoorQuality: four bins of ten.
+double share_of_poor(const QualityStatistics& q) {
+  const auto& bins = q.histogram;
+  return double(std::accumulate(bins.begin(), bins.begin() + 4, std::int64_t{0})) /
+         double(std::accumulate(bins.begin(), bins.end(), std::int64_t{0}));
+}
+
 template <class Ask>
 void ask_lengths_where(TetMesh& m, Ask&& ask) {
   parallel_for(m.tets.size(), [&](std::size_t t) {
@@ -51,10 +61,17 @@ bool is_as_good_as_results(const MeshSummary& now, bool uniform, double conform)
          now.lengths.conforming_percent() >= conform;
 }
 
-bool gained_nothing(const MeshSummary& before, const MeshSummary& after, double conform) {
-  const double was = before.lengths.conforming_percent(), is = after.lengths.conforming_percent();
-  const bool met_now = was < conform && is >= conform;
-  return !met_now && is < was + 100 * kGain && after.quality.mean < before.quality.mean + kGain;
+bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const Options& options) {
+  const auto met = [&](const MeshSummary& m) {
+    return int(m.quality.flat.empty()) + (m.quality.worst >= options.min_quality) +
+           (m.lengths.conforming_percent() >= options.min_conform);
+  };
+  const bool worst_rose = before.quality.worst < kPoorQuality &&
+                          after.quality.worst > before.quality.worst + kWorstGain;
+  return met(after) <= met(before) && !worst_rose &&
+         after.quality.mean < before.quality.mean + kGain &&
+         share_of_poor(after.quality) > share_of_poor(before.quality) - kGain &&
+         after.lengths.conforming_percent() < before.lengths.conforming_percent() + 100 * kGain;
 }
 
 bool few_are_poor(const TetMesh& mesh) {
@@ -69,9 +86,12 @@ bool few_are_poor(const TetMesh& mesh) {
   return double(poor) <= kFew * double(mesh.tets.size());
 }
 
-void ask_only_poor(TetMesh& mesh) {
+void ask_nothing(TetMesh& mesh) {
+  parallel_for(mesh.tets.size(), [&](std::size_t t) { mesh.tet_flags[t] &= tet_flag::kRequired; });
+}
+
+void ask_poor(TetMesh& mesh) {
   parallel_for(mesh.tets.size(), [&](std::size_t t) {
-    mesh.tet_flags[t] &= tet_flag::kRequired;
     if (is_poor(mesh, TetId(t))) mesh.tet_flags[t] |= tet_flag::kAskAll;
   });
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "cavea/mesh/tet_mesh.h"
+#include "cavea/remesh/options.h"
 #include "cavea/remesh/report.h"
 
 namespace cavea {
@@ -11,16 +12,19 @@ namespace cavea {
 /// percent of the lengths conform.
 bool is_as_good_as_results(const MeshSummary& now, bool uniform, double conform);
 
-/// Whether quality and lengths have not become better by more than chance would make them, nor the
-/// target of conforming lengths met thereby.
-bool gained_nothing(const MeshSummary& before, const MeshSummary& after, double conform);
+/// Whether quality and lengths have not become better by more than chance would make them, nor met
+/// a target of the options that they missed.
+bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const Options& options);
 
 /// Whether the tets that are far from what is wanted, in quality or in length, are so few that they
 /// may be mended one by one. Needs the sizes.
 bool few_are_poor(const TetMesh& mesh);
 
-/// Leaves only those tets asked.
-void ask_only_poor(TetMesh& mesh);
+/// No tet is asked any more.
+void ask_nothing(TetMesh& mesh);
+
+/// Asks those tets everything.
+void ask_poor(TetMesh& mesh);
 
 /// Asks the lengths of all tets again.
 void ask_lengths(TetMesh& mesh);

@@ -1,6 +1,6 @@
 // Entry of libFuzzer: the first byte chooses the reader. The suite calls it too.
 #include "cavea/base/error.h"
-#include "in_memory.h"
+#include "io/in_memory.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   if (size == 0) return 0;

@@ -1,16 +1,12 @@
 cavea_test(io io mesh)
+# What the fuzz target is made of is tested on its own, too.
+target_sources(cavea_test_io PRIVATE fuzz/medit.cpp)
+target_compile_definitions(cavea_test_io PRIVATE
+  CAVEA_FUZZ_CORPUS="${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus")
 if(CAVEA_VTK)
   find_package(VTK QUIET COMPONENTS CommonCore CommonDataModel IOXML)
   if(VTK_FOUND)
     target_compile_definitions(cavea_test_io PRIVATE CAVEA_HAVE_VTK)
     target_link_libraries(cavea_test_io PRIVATE VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
   endif()
-endif()
-
-# Coverage-guided: clang, with -fsanitize=fuzzer-no-link,address in CMAKE_CXX_FLAGS.
-option(CAVEA_FUZZ "Build the libFuzzer target of the Medit readers" OFF)
-if(CAVEA_FUZZ AND CMAKE_CXX_COMPILER_ID MATCHES Clang)
-  add_executable(cavea_fuzz_medit ${CMAKE_CURRENT_LIST_DIR}/fuzz_medit.cpp)
-  target_link_libraries(cavea_fuzz_medit PRIVATE cavea_io)
-  target_link_options(cavea_fuzz_medit PRIVATE -fsanitize=fuzzer,address)
 endif()

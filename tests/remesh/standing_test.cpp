@@ -45,6 +45,13 @@ Options with_tolerance(double hausd) {
   return options;
 }
 
+/// One layer of cells, 20 times as wide as thick.
+MeshData thin_plate() {
+  MeshData data = kuhn_grid(10, [](int, int, int k) { return k == 0; });
+  for (Vec3& p : data.vertices) p.z /= 2;
+  return data;
+}
+
 struct Body {
   std::string name;
   MeshData data;
@@ -63,7 +70,7 @@ std::vector<Body> bodies() {
           {"cylinder", cylinder(8), with_tolerance(0.01)},
           {"faceted_cylinder", cylinder(8), faceted},
           {"frame", frame(), uniform(0.06)},
-          {"thin_wall", thin_wall(), uniform(0.035)}};
+          {"thin_plate", thin_plate(), uniform(0.05)}};
 }
 
 class Again : public testing::TestWithParam<std::size_t> {};
