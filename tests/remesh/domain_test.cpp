@@ -134,6 +134,38 @@ TEST(Domain, KeepsWhatIsRequired) {
     EXPECT_TRUE(contains(out.vertices, data.vertices[v]));
 }
 
+/// A ball of three materials: a core, and two halves around it.
+MeshData ball_with_core(int n) {
+  MeshData data = kuhn_cube(n);
+  set_refs(data, [](const Vec3& c) {
+    const double core = std::max({std::abs(c.x - 0.5), std::abs(c.y - 0.5), std::abs(c.z - 0.5)});
+    return core < 0.25 ? 1 : c.x + c.z / 1000 < 0.5 ? 2 : 3;
+  });
+  data.vertices = ball(n).vertices;
+  return data;
+}
+
+TEST(Domain, VolumesOfReferencesStayWithinTheTolerance) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const TetMesh start = built(shuffled(ball_with_core(8), seed));
+    TetMesh mesh = start;
+    Options options;
+    options.hausd = seed % 2 ? 0.004 : 0.01;
+    options.faceted = seed > 2;
+    const Report report = remesh(mesh, {}, options);
+    expect_sound(mesh);
+    double area = 0;
+    for (const auto& [ref, of_ref] : area_of_ref(start)) area += of_ref;
+    const auto now = count(mesh).volume_of_ref;
+    for (const auto& [ref, before] : count(start).volume_of_ref)
+      EXPECT_NEAR(now.at(ref), before, (report.surface_distance + report.bulge) * area / 2)
+          << "reference " << ref;
+    EXPECT_EQ(euler(mesh), euler(start));
+    EXPECT_LE(report.surface_distance, report.hausd);
+  }
+}
+
 TEST(Domain, KeepsAllReferencesOfTriangles) {
   MeshData data = to_data(built(kuhn_cube(4)));
   for (std::size_t t = 0; t < data.triangles.size(); ++t) {

@@ -124,11 +124,6 @@ class Shape {
     EXPECT_NEAR(now.feature_length_, feature_length_, kRounding * feature_length_);
   }
 
-  /// Volumes of the references are the same up to a share of each.
-  void expect_volumes(const TetMesh& mesh, double share) const {
-    expect_near(counts_.volume_of_ref, count(mesh).volume_of_ref, share);
-  }
-
   const Counts& counts() const { return counts_; }
 
  private:
