@@ -36,6 +36,9 @@ constexpr double kMeasuredShare = 0.95;
 /// Places that are still too far from the surface after this many repairs are left and reported.
 constexpr int kRepairs = 7;
 
+/// Poor tets that are left after as many mendings are left for good.
+constexpr int kMendings = 3;
+
 /// A budget of tets is met when it is exceeded by no more than this share.
 constexpr double kBudgetMargin = 0.1;
 
@@ -64,6 +67,7 @@ class Run {
     if (!mends_) timed("bulk", [&] { refine(); });
     for (const Phase& phase : mends_ ? mending_recipe(r_) : recipe(r_))
       timed(phase.name, [&] { run_phase(phase); });
+    for (int k = 0; k < kMendings && may_mend_more(); ++k) timed("mending", [&] { mend(); });
     timed("measurement", [&] { distance_ = measure_distance(); });
     for (int k = 0; k < kRepairs && may_repair() && distance_.worse().worst > kMeasuredShare; ++k) {
       timed("repair", [&] { repair(); });
@@ -225,6 +229,21 @@ class Run {
       ask_lengths(mesh_);
   }
 
+  /// Whether there are fewer bad tets than there were before the last mending, and not none.
+  bool may_mend_more() {
+    const std::int64_t bad = count_worse(mesh_, kSoundQuality),
+                       before = bad_tets_.value_or(bad + 1);
+    bad_tets_ = bad;
+    return bad > 0 && bad < before;
+  }
+
+  /// Phases end when little changes in the whole mesh, though the worst tets have not been asked
+  /// often enough.
+  void mend() {
+    ask_poor(mesh_);
+    for (const Phase& phase : mending_recipe(r_)) run_phase(phase);
+  }
+
   bool more_for_budget(const Phase& phase, int round) const {
     return round <= phase.rounds + phase.budget_rounds && !budget_.met(mesh_);
   }
@@ -305,6 +324,7 @@ class Run {
   SizeField field_;
   const Options& options_;
   Effort effort_;
+  std::optional<std::int64_t> bad_tets_;  ///< before the last mending
   bool may_mend_ =
       false;            ///< the input has the surface and number of tets wanted, operators are free
   bool mends_ = false;  ///< only poor tets are asked

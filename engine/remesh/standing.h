@@ -1,5 +1,6 @@
 #pragma once
 // Whether a mesh stands: it is on the whole what a run would make of it.
+#include <cstdint>
 #include <vector>
 
 #include "cavea/mesh/tet_mesh.h"
@@ -19,6 +20,9 @@ bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const O
 /// Whether the tets that are far from what is wanted, in quality or in length, are so few that they
 /// may be mended one by one. Needs the sizes.
 bool few_are_poor(const TetMesh& mesh);
+
+/// The number of tets of less than a quality.
+std::int64_t count_worse(const TetMesh& mesh, double quality);
 
 /// No tet is asked any more.
 void ask_nothing(TetMesh& mesh);

@@ -54,6 +54,29 @@ TEST(Gaps, OfRandomBoxesStayOpen) {
   }
 }
 
+/// Layers of four materials, of which two are 20 and 40 times as wide as thick.
+MeshData layers(std::uint64_t seed) {
+  constexpr std::array<double, 5> kAt = {0, 0.5, 0.6, 1.1, 1.15};
+  MeshData data = kuhn_cube(4);
+  set_refs(data, [](const Vec3& c) { return 1 + int(4 * c.z); });
+  return mapped(shuffled(data, seed), [&](const Vec3& p) {
+    return Vec3{2 * p.x, 2 * p.y, kAt[std::size_t(std::lround(4 * p.z))]};
+  });
+}
+
+TEST(Gaps, ThinLayersAreMeshedWell) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    TetMesh start = built(layers(seed)), mesh = start;
+    const Report report = remesh(mesh, {}, {});
+    expect_sound(mesh);
+    expect_good(report, {.worst = 0.3, .conform = 90});
+    EXPECT_TRUE(report.stubborn.empty());
+    classify_features(start, {});
+    Shape(start).expect_polyhedron(mesh);
+  }
+}
+
 /// Two plates, joined at one edge, with a thin and bent slit between them.
 MeshData bent_slit(std::uint64_t seed, double gap) {
   Random random(seed);
