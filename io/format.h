@@ -5,6 +5,9 @@
 namespace cavea {
 
 /// What a format is made of: one file format_x.cpp makes one, one row in formats.cpp registers it.
+/// What the scalars of a solution file are.
+enum class SolutionKind { kSizes, kValues };
+
 /// A null function says that the format cannot do that.
 struct Format {
   std::string_view extension;
@@ -13,8 +16,9 @@ struct Format {
   void (*write)(OutputFile&, const MeshData&, const WriteOptions&) = nullptr;
 
   std::string_view sizes_extension;
-  std::vector<double> (*read_sizes)(const std::filesystem::path&,
-                                    std::size_t expected_count) = nullptr;
+  /// Checks that the values are positive where `kind` is kSizes.
+  std::vector<double> (*read_solution)(const std::filesystem::path&, std::size_t expected_count,
+                                       SolutionKind kind) = nullptr;
   void (*write_sizes)(OutputFile&, std::span<const double>) = nullptr;
 };
 

@@ -36,9 +36,10 @@ void write(OutputFile& file, const MeshData& data, const WriteOptions& options) 
   append_text(file, "\n{}\n", medit::kEndName);
 }
 
-std::vector<double> read_solution(const fs::path& path, std::size_t expected_count) {
+std::vector<double> read_solution(const fs::path& path, std::size_t expected_count,
+                                  SolutionKind kind) {
   const MappedFile map(path);
-  return medit::read_solution(medit::MeditText(map.bytes(), path.string()), expected_count);
+  return medit::read_solution(medit::MeditText(map.bytes(), path.string()), expected_count, kind);
 }
 
 void write_solution(OutputFile& file, std::span<const double> sizes) {

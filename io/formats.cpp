@@ -114,6 +114,12 @@ void check_lists(const MeshData& d) {
   check_pairs("tangent_at_vertices", d.tangent_at_vertices, d.vertices.size(), d.tangents.size());
 }
 
+std::vector<double> read_solution(const fs::path& path, std::size_t expected_count,
+                                  SolutionKind kind) {
+  return require_format<InputError>(path, &Format::sizes_extension, &Format::read_solution)
+      .read_solution(path, expected_count, kind);
+}
+
 }  // namespace
 
 std::vector<FormatInfo> formats() {
@@ -149,8 +155,11 @@ void write_mesh(const fs::path& path, const MeshData& data, const WriteOptions& 
 }
 
 std::vector<double> read_sizes(const fs::path& path, std::size_t expected_count) {
-  return require_format<InputError>(path, &Format::sizes_extension, &Format::read_sizes)
-      .read_sizes(path, expected_count);
+  return read_solution(path, expected_count, SolutionKind::kSizes);
+}
+
+std::vector<double> read_values(const fs::path& path, std::size_t expected_count) {
+  return read_solution(path, expected_count, SolutionKind::kValues);
 }
 
 void write_sizes(const fs::path& path, std::span<const double> sizes) {

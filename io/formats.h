@@ -49,6 +49,10 @@ void write_mesh(const std::filesystem::path& path, const MeshData& data,
 /// size that is not positive, or another number of sizes than `expected_count`.
 std::vector<double> read_sizes(const std::filesystem::path& path, std::size_t expected_count);
 
+/// Reads one number a vertex, of either sign, from the same files: the values of a level set.
+/// \throw InputError as read_sizes(), but for the sign.
+std::vector<double> read_values(const std::filesystem::path& path, std::size_t expected_count);
+
 /// Writes one size a vertex into a .sol or .solb, whole or not at all.
 /// \throw OutputError as write_mesh().
 void write_sizes(const std::filesystem::path& path, std::span<const double> sizes);

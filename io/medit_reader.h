@@ -13,6 +13,7 @@
 
 #include "cavea/base/ids.h"
 #include "cavea/base/parallel.h"
+#include "cavea/io/format.h"
 #include "cavea/io/medit.h"
 
 // Reading of Medit files, ASCII and binary alike. A File (MeditText, MeditBytes) knows its sections
@@ -268,14 +269,14 @@ Section scalar_section(const File& file) {
 }
 
 template <class File>
-std::vector<double> read_solution(const File& file, std::size_t expected_count) {
+std::vector<double> read_solution(const File& file, std::size_t expected_count, SolutionKind kind) {
   const Section s = scalar_section(file);
   std::vector<double> sizes;
   read_rows(file, s, "size of vertex", {}, Limits(file.sections()), sizes, nullptr);
   if (sizes.size() != expected_count)
     file.fail(s.at, fmt::format("{} holds {} sizes for the mesh's {} vertices", s.name,
                                 sizes.size(), expected_count));
-  for (std::size_t v = 0; v < sizes.size(); ++v)
+  for (std::size_t v = 0; v < sizes.size() && kind == SolutionKind::kSizes; ++v)
     if (!(sizes[v] > 0))
       file.fail(s.at, fmt::format("size of vertex {}: {} is not positive", v + 1, sizes[v]));
   return sizes;

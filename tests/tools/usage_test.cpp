@@ -55,6 +55,27 @@ TEST_F(UsageTest, RefusesACommandLineThatMakesNoSense) {
   expect_option_refused({"--hmin", "0.1", "--hmin", "0.2"}, "--hmin");
 }
 
+TEST_F(UsageTest, RefusesLevelSetsThatAreNone) {
+  const auto expect_level_set_refused = [&](const std::string& values, const std::string& named,
+                                            const Words& more = {}) {
+    write_text(file("phi.sol"),
+               "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n" + values + "\nEnd\n");
+    Words words = {"implicit", "in.mesh", "--sol", "phi.sol", "-o", "out.mesh"};
+    words.insert(words.end(), more.begin(), more.end());
+    expect_refused(words, named);
+  };
+  const std::string good = "8 1 1 -1 1 1 1 1 1 1 1";
+  expect_level_set_refused("8 1 1 2 1 1 1 1 1 1 1", "from 1 to 2");
+  expect_level_set_refused(good, "nowhere 7", {"--iso", "7"});
+  expect_level_set_refused("7 1 1 -1 1 1 1 1 1 1", "7");
+  expect_level_set_refused("8 1 1 nan 1 1 1 1 1 1 1", "phi.sol");
+  expect_level_set_refused(good, "--reference-map", {"--reference-map", "1:5"});
+  expect_level_set_refused(good, "--inside-ref", {"--inside-ref", "2"});
+  expect_level_set_refused(good, "--keep", {"--keep", "middle"});
+  expect_level_set_refused(good, "share of components", {"--remove-components", "1"});
+  expect_refused({"implicit", "in.mesh", "-o", "out.mesh"}, "--sol");
+}
+
 TEST_F(UsageTest, RefusesNumbersThatAreNone) {
   for (const char* name :
        {"hausd", "hmin", "hmax", "hsiz", "hgrad", "angle", "min-quality", "min-conform", "threads"})

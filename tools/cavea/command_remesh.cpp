@@ -6,8 +6,10 @@
 
 #include "cavea/base/error.h"
 #include "cavea/base/memory.h"
+#include "cavea/base/parallel.h"
 #include "cavea/base/timer.h"
 #include "cavea/field/mesh_size_field.h"
+#include "cavea/io/formats.h"
 #include "cavea/remesh/remesh.h"
 #include "exit_status.h"
 #include "interrupt.h"
@@ -28,7 +30,10 @@ void check_names(const RemeshArguments& arguments) {
     for (NamedFile& file : files_of_mesh(name)) outputs.push_back(std::move(file));
   if (!arguments.report.empty()) outputs.push_back({"--report", arguments.report});
   std::vector<NamedFile> inputs = {{"the input", arguments.input}};
-  if (!arguments.sizes.empty()) inputs.push_back({"the file of --sol", arguments.sizes});
+  if (!arguments.sizes.empty())
+    inputs.push_back(
+        {arguments.implicit ? "the file of --met" : "the file of --sol", arguments.sizes});
+  if (arguments.implicit) inputs.push_back({"the file of --sol", arguments.implicit->values});
   if (!arguments.parameters.empty())
     inputs.push_back({"the file of --params", arguments.parameters});
   if (!arguments.surface.empty()) inputs.push_back({"the file of --surface", arguments.surface});
@@ -39,6 +44,19 @@ void check_names(const RemeshArguments& arguments) {
 SizeField field_of(const RemeshArguments& arguments, const TetMesh& mesh) {
   if (arguments.sizes.empty()) return {};
   return [map = std::make_shared<MeshSizeField>(mesh)](const Vec3& p) { return (*map)(p); };
+}
+
+/// Cuts the mesh along the level set of the file. \throw InputError, OptionError
+CutReport cut_loaded(const ImplicitArguments& implicit, int threads, LoadedMesh& loaded) {
+  const CutOptions options = to_cut_options(implicit);
+  if (loaded.repairs.unused_vertices != 0)
+    throw InputError("the mesh has vertices of no tet: values cannot be told to be of which");
+  const std::vector<double> values = read_values(implicit.values, loaded.mesh.points.size());
+  CutResult cut;
+  run_in_arena(threads > 0 ? threads : default_threads(),
+               [&] { cut = cut_along(loaded.mesh, values, options); });
+  loaded.mesh = std::move(cut.mesh);
+  return cut.report;
 }
 
 /// Runs the library with a progress line, which is gone when this returns.
@@ -77,7 +95,10 @@ RunReport remesh_file(const RemeshArguments& arguments, Options options,
   options.cancel = interrupt.flag();
   options.directions = true;
   const SizeField field = field_of(arguments, loaded.mesh);
-  RunReport run{arguments, run_library(loaded.mesh, field, options, arguments.quiet), read_seconds};
+  std::optional<CutReport> cut;
+  if (arguments.implicit) cut = cut_loaded(*arguments.implicit, options.threads, loaded);
+  RunReport run{arguments, run_library(loaded.mesh, field, options, arguments.quiet), cut,
+                read_seconds};
   std::vector<std::string>& warnings = run.report.warnings;
   warnings.insert(warnings.begin(), loaded.warnings.begin(), loaded.warnings.end());
 

@@ -40,9 +40,10 @@ int run(int argc, char** argv) {
   CLI::App app{"Parallel tetrahedral remeshing.", "cavea"};
   app.set_version_flag("--version", "cavea " CAVEA_VERSION);
   app.require_subcommand(1);
-  RemeshArguments remesh_arguments;
+  RemeshArguments remesh_arguments, implicit_arguments;
   InfoArguments info_arguments;
   CLI::App* remesh = add_remesh_command(app, remesh_arguments);
+  CLI::App* implicit = add_implicit_command(app, implicit_arguments);
   add_info_command(app, info_arguments);
   try {
     app.parse(argc, argv);
@@ -51,6 +52,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return fail(kBadInput, fmt::format("{} (--help tells more)", e.what()).c_str());
   }
+  if (implicit->parsed()) return run_remesh(implicit_arguments);
   return remesh->parsed() ? run_remesh(remesh_arguments) : run_info(info_arguments);
 }
 

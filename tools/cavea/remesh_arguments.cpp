@@ -11,7 +11,7 @@
 namespace cavea::program {
 namespace {
 
-void add_size_flags(CLI::App& command, RemeshArguments& arguments) {
+void add_size_flags(CLI::App& command, RemeshArguments& arguments, const char* sizes_flag) {
   Options& options = arguments.options;
   command.add_option("--hausd", options.hausd,
                      "Largest distance to the ideal surface [0.001 of the box diagonal]");
@@ -26,7 +26,7 @@ void add_size_flags(CLI::App& command, RemeshArguments& arguments) {
   command.add_option("--hmax", options.hmax, "Longest wanted edge [0.1 of the box diagonal]");
   CLI::Option* uniform = command.add_option("--hsiz", options.hsiz, "One edge length everywhere");
   CLI::Option* sizes = command
-                           .add_option("--sol", arguments.sizes,
+                           .add_option(sizes_flag, arguments.sizes,
                                        "Wanted edge lengths at the vertices of IN (.sol, .solb)")
                            ->excludes(uniform);
   command
@@ -98,11 +98,12 @@ void add_output_flags(CLI::App& command, RemeshArguments& arguments) {
 
 }  // namespace
 
-CLI::App* add_remesh_command(CLI::App& app, RemeshArguments& arguments) {
-  CLI::App* command = app.add_subcommand("remesh", "Remesh a tetrahedral mesh");
+namespace {
+
+void add_common_flags(CLI::App* command, RemeshArguments& arguments, const char* sizes_flag) {
   command->add_option("IN", arguments.input, "Mesh to read")->required();
   add_output_flags(*command, arguments);
-  add_size_flags(*command, arguments);
+  add_size_flags(*command, arguments, sizes_flag);
   add_gradation_flags(*command, arguments);
   add_surface_flags(*command, arguments);
   add_freeze_flags(*command, arguments.options.freeze);
@@ -112,6 +113,21 @@ CLI::App* add_remesh_command(CLI::App& app, RemeshArguments& arguments) {
       "Exit status: 0 done, every target met; 1 a valid mesh was written, but a target was missed; "
       "2 bad usage or input, nothing written; 3 a fault of the program, nothing written.");
   refuse_empty_values(*command);
+}
+
+}  // namespace
+
+CLI::App* add_remesh_command(CLI::App& app, RemeshArguments& arguments) {
+  CLI::App* command = app.add_subcommand("remesh", "Remesh a tetrahedral mesh");
+  add_common_flags(command, arguments, "--sol");
+  return command;
+}
+
+CLI::App* add_implicit_command(CLI::App& app, RemeshArguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("implicit", "Cut a tetrahedral mesh along a level set and remesh it");
+  add_cut_flags(*command, arguments.implicit.emplace());
+  add_common_flags(command, arguments, "--met");
   return command;
 }
 

@@ -7,10 +7,11 @@
 
 #include "cavea/mesh/build.h"
 #include "cavea/remesh/options.h"
+#include "implicit_arguments.h"
 
 namespace cavea::program {
 
-/// The command line of `cavea remesh`, as it was typed.
+/// The command line of `cavea remesh` or `cavea implicit`, as it was typed.
 struct RemeshArguments {
   std::string input;
   std::vector<std::string> outputs;
@@ -18,6 +19,7 @@ struct RemeshArguments {
   std::string surface;     ///< file of the mesh whose surface is the truth; empty: the input
   std::string parameters;  ///< file of local parameters; empty: none
   std::string report;      ///< empty: none
+  std::optional<ImplicitArguments> implicit;  ///< none: nothing is cut before
   BuildOptions build;
   Options options;  ///< without threads, progress and cancel
   std::optional<int> threads;
@@ -27,6 +29,8 @@ struct RemeshArguments {
 
 /// Adds the command and its flags; parsing fills `arguments`, which must outlive `app`.
 CLI::App* add_remesh_command(CLI::App& app, RemeshArguments& arguments);
+/// The same for `cavea implicit`, which cuts before it remeshes.
+CLI::App* add_implicit_command(CLI::App& app, RemeshArguments& arguments);
 
 /// The options for the library, with the file of local parameters read. \throw OptionError naming
 /// the option, see validate(); InputError, see read_parameters()

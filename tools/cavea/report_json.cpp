@@ -62,6 +62,16 @@ Json stubborn_json(const Report& report) {
   return stubborn;
 }
 
+Json cut_json(const CutReport& cut) {
+  return {{"smallest_value", cut.smallest_value},
+          {"largest_value", cut.largest_value},
+          {"vertices_on_interface", cut.vertices_on_interface},
+          {"interface_triangles", cut.interface_triangles},
+          {"removed_components", cut.removed_components},
+          {"filled_cavities", cut.filled_cavities},
+          {"open", cut.open}};
+}
+
 Json targets_json(const Report& report) {
   Json targets = Json::array();
   for (const Target& t : report.targets)
@@ -77,26 +87,28 @@ Json targets_json(const Report& report) {
 
 Json to_json(const RunReport& run) {
   const Report& report = run.report;
-  return {{"version", CAVEA_VERSION},
-          {"input", run.arguments.input},
-          {"outputs", run.arguments.outputs},
-          {"options", options_json(run)},
-          {"threads", report.threads},
-          {"seconds", report.seconds},
-          {"read_seconds", run.read_seconds},
-          {"write_seconds", run.write_seconds},
-          {"tets_per_second", report.tets_per_second},
-          {"peak_resident_bytes", report.peak_resident_bytes},
-          {"phases", phases_json(report)},
-          {"before", to_json(report.before)},
-          {"after", to_json(report.after)},
-          {"verdicts", verdicts_json(report.verdicts)},
-          {"stubborn", stubborn_json(report)},
-          {"surface_distance", report.surface_distance},
-          {"bulge", report.bulge},
-          {"targets", targets_json(report)},
-          {"targets_met", report.targets_met()},
-          {"warnings", report.warnings}};
+  Json out = {{"version", CAVEA_VERSION},
+              {"input", run.arguments.input},
+              {"outputs", run.arguments.outputs},
+              {"options", options_json(run)},
+              {"threads", report.threads},
+              {"seconds", report.seconds},
+              {"read_seconds", run.read_seconds},
+              {"write_seconds", run.write_seconds},
+              {"tets_per_second", report.tets_per_second},
+              {"peak_resident_bytes", report.peak_resident_bytes},
+              {"phases", phases_json(report)},
+              {"before", to_json(report.before)},
+              {"after", to_json(report.after)},
+              {"verdicts", verdicts_json(report.verdicts)},
+              {"stubborn", stubborn_json(report)},
+              {"surface_distance", report.surface_distance},
+              {"bulge", report.bulge},
+              {"targets", targets_json(report)},
+              {"targets_met", report.targets_met()},
+              {"warnings", report.warnings}};
+  if (run.cut) out["level_set"] = cut_json(*run.cut);
+  return out;
 }
 
 }  // namespace cavea::program

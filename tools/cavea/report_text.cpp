@@ -86,6 +86,17 @@ std::string verdicts_text(const Report& report) {
 
 }  // namespace
 
+namespace {
+
+std::string cut_text(const CutReport& cut) {
+  return fmt::format("level set: {} triangles cut{}; {} components removed, {} cavities filled\n",
+                     cut.interface_triangles,
+                     cut.open ? ", open at the boundary of the domain" : "", cut.removed_components,
+                     cut.filled_cavities);
+}
+
+}  // namespace
+
 std::string to_text(const RunReport& run, bool verbose) {
   const Report& report = run.report;
   const std::vector<SummaryColumn> columns = {{"before", &report.before}, {"after", &report.after}};
@@ -98,6 +109,7 @@ std::string to_text(const RunReport& run, bool verbose) {
     blocks.push_back(verdicts_text(report));
     if (!report.stubborn.empty()) blocks.push_back(stubborn_text(report));
   }
+  if (run.cut) blocks.push_back(cut_text(*run.cut));
   blocks.push_back(surface_text(report) + cost_text(run));
   blocks.push_back(targets_text(report));
   return fmt::format("{}", fmt::join(blocks, "\n"));

@@ -9,10 +9,11 @@
 
 namespace cavea::program {
 
-/// Everything there is to say about one run of `cavea remesh`.
+/// Everything there is to say about one run of `cavea remesh` or `cavea implicit`.
 struct RunReport {
   const RemeshArguments& arguments;
   Report report;
+  std::optional<CutReport> cut;  ///< of `cavea implicit`
   double read_seconds = 0, write_seconds = 0;
 };
 

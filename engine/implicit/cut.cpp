@@ -1,0 +1,213 @@
+#include "cavea/implicit/cut.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cavea/base/error.h"
+#include "cavea/base/parallel.h"
+#include "cavea/implicit/islands.h"
+#include "cavea/implicit/normals.h"
+#include "cavea/implicit/signs.h"
+#include "cavea/mesh/build.h"
+#include "cavea/mesh/faces.h"
+#include "cavea/mesh/statistics.h"
+#include "cavea/subdivide/subdivide.h"
+
+namespace cavea {
+namespace {
+
+void check_options(const CutOptions& options) {
+  if (!std::isfinite(options.isovalue))
+    throw OptionError(fmt::format("the isovalue must be finite, not {}", options.isovalue));
+  if (!(options.remove_components >= 0 && options.remove_components < 1))
+    throw OptionError(fmt::format("the share of components to remove must be in [0, 1), not {}",
+                                  options.remove_components));
+}
+
+/// The values less the isovalue. \throw InputError
+std::vector<double> checked_values(const TetMesh& mesh, std::span<const double> values,
+                                   double isovalue, CutReport& report) {
+  if (values.size() != mesh.points.size())
+    throw InputError(fmt::format("the level set has {} values for {} vertices", values.size(),
+                                 mesh.points.size()));
+  const auto bad = std::ranges::find_if(values, [](double x) { return !std::isfinite(x); });
+  if (bad != values.end())
+    throw InputError(
+        fmt::format("the level set's value at vertex {} is {}", bad - values.begin() + 1, *bad));
+  const auto [least, most] = std::ranges::minmax(values);
+  if (!(least < isovalue && isovalue < most))
+    throw InputError(fmt::format("the level set is nowhere {}: its values are from {} to {}",
+                                 isovalue, least, most));
+  report.smallest_value = least;
+  report.largest_value = most;
+  std::vector<double> out(values.begin(), values.end());
+  for (double& x : out) x -= isovalue;
+  return out;
+}
+
+class Cut {
+ public:
+  Cut(const TetMesh& mesh, std::vector<double> values, const CutOptions& options, CutReport& report)
+      : mesh_(mesh),
+        values_(std::move(values)),
+        options_(options),
+        report_(report),
+        signs_(cut_signs(mesh, values_)) {
+    report_.vertices_on_interface = std::ranges::count(signs_, 0);
+  }
+
+  TetMesh run() {
+    refuse_required();
+    report_.open = std::ranges::any_of(mesh_.triangles, [&](const Triangle& s) {
+      return s.alive() && s.sides[1].is_unset() &&
+             (crossed(s.v[0], s.v[1]) || crossed(s.v[1], s.v[2]));
+    });
+    cut_ = subdivide(
+        mesh_, [&](const MeshEdge& e) { return crossed(e.a, e.b); },
+        [&](const MeshEdge& e) { return vertex_on(e); }, 0);
+    find_sides();
+    remove_islands();
+    return finish();
+  }
+
+ private:
+  bool crossed(VertexId a, VertexId b) const { return signs_[a] * signs_[b] < 0; }
+
+  NewVertex vertex_on(const MeshEdge& e) const {
+    NewVertex made = straight_midpoint(mesh_, e);
+    const Vec3 a = mesh_.points[e.a], b = mesh_.points[e.b];
+    const double share = options_.function ? zero_on_edge(options_.function, options_.isovalue, a,
+                                                          b, values_[e.a], values_[e.b])
+                                           : values_[e.a] / (values_[e.a] - values_[e.b]);
+    made.point = a + (b - a) * std::clamp(share, kLeastCutShare, 1 - kLeastCutShare);
+    return made;
+  }
+
+  void refuse_required() const {
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
+      for (const auto& e : kEdgeVertices)
+        if ((mesh_.tet_flags[t] & tet_flag::kRequired) &&
+            crossed(mesh_.tets[t][e[0]], mesh_.tets[t][e[1]]))
+          throw InputError(fmt::format("the level set cuts required tet {}", t + 1));
+    for (std::size_t s = 0; s < mesh_.triangles.size(); ++s)
+      for (int k = 0; k < 3; ++k) refuse_required(s, k);
+  }
+
+  void refuse_required(std::size_t s, int k) const {
+    const Triangle& triangle = mesh_.triangles[s];
+    const VertexId a = triangle.v[(k + 1) % 3], b = triangle.v[(k + 2) % 3];
+    if (!triangle.alive() || !crossed(a, b)) return;
+    if (triangle.tags & tag::kRequired)
+      throw InputError(fmt::format("the level set cuts required triangle {}", s + 1));
+    if (triangle.edge_tag[k] & tag::kRequired)
+      throw InputError(fmt::format("the level set cuts the required edge of vertices {} and {}",
+                                   std::min(a, b) + 1, std::max(a, b) + 1));
+  }
+
+  const CutMaterial& material(std::int32_t ref) const {
+    const auto found = options_.material_of_ref.find(ref);
+    return found == options_.material_of_ref.end() ? options_.material : found->second;
+  }
+
+  void find_sides() {
+    // New vertices are on the interface and have no say.
+    signs_.resize(cut_.points.size(), 0);
+    values_.resize(cut_.points.size(), 0);
+    sides_.resize(cut_.tets.size());
+    parallel_for(cut_.tets.size(), [&](std::size_t t) {
+      sides_[t] = material(cut_.tet_refs[t]).split
+                      ? std::int8_t(side_of_tet(cut_.tets[t], signs_, values_))
+                      : std::int8_t(0);
+    });
+  }
+
+  void remove_islands() {
+    if (options_.remove_components == 0) return;
+    const double least = options_.remove_components * count(cut_).volume;
+    report_.removed_components = turn_islands(cut_, -1, least, false, sides_);
+    report_.filled_cavities = turn_islands(cut_, 1, least, true, sides_);
+  }
+
+  /// Calls f(tet, face) once for each face of the interface, from inside.
+  template <class F>
+  void for_each_interface(F&& f) const {
+    for (std::size_t t = 0; t < cut_.tets.size(); ++t)
+      for (int i = 0; i < 4 && sides_[t] < 0; ++i)
+        if (const FaceLink next = cut_.across(TetId(t), i); next.is_tet() && sides_[next.tet()] > 0)
+          f(TetId(t), i);
+  }
+
+  TetMesh finish() {
+    for_each_interface([&](TetId t, int i) {
+      if (const FaceLink link = cut_.links[t][i]; link.is_triangle())
+        cut_.triangles[link.triangle()].ref = options_.interface_ref;
+    });
+    MeshData data = to_data(cut_);
+    std::vector<char> on_interface(data.vertices.size(), 0);
+    for_each_interface([&](TetId t, int i) {
+      const auto face = face_vertices(cut_.tets[t], i);
+      for (const VertexId v : face) on_interface[v] = 1;
+      ++report_.interface_triangles;
+      if (cut_.links[t][i].is_triangle()) return;  // listed already
+      data.triangles.push_back(face);
+      data.triangle_refs.push_back(options_.interface_ref);
+    });
+    for (std::size_t t = 0; t < data.tets.size(); ++t)
+      if (sides_[t] != 0) {
+        const CutMaterial& m = material(cut_.tet_refs[t]);
+        data.tet_refs[t] = sides_[t] < 0 ? m.inside : m.outside;
+      }
+    if (options_.function) add_normals(options_.function, cut_, on_interface, data);
+    keep_side(data);
+    return build(data).mesh;
+  }
+
+  void keep_side(MeshData& data) const {
+    if (options_.keep == CutKeep::kBoth) return;
+    const std::int8_t kept = options_.keep == CutKeep::kInside ? -1 : 1;
+    std::vector<std::int32_t> new_id(data.tets.size(), kNone);
+    std::size_t n = 0;
+    for (std::size_t t = 0; t < data.tets.size(); ++t) {
+      if (sides_[t] != kept) continue;
+      new_id[t] = std::int32_t(n);
+      data.tets[n] = data.tets[t];
+      data.tet_refs[n++] = data.tet_refs[t];
+    }
+    if (n == 0) throw InputError("nothing is left of the side of the level set that is to be kept");
+    data.tets.resize(n);
+    data.tet_refs.resize(n);
+    for (std::int32_t& t : data.required_tets) t = new_id[t];
+    std::erase(data.required_tets, kNone);
+  }
+
+  const TetMesh& mesh_;
+  std::vector<double> values_;
+  const CutOptions& options_;
+  CutReport& report_;
+  std::vector<std::int8_t> signs_;
+  TetMesh cut_;
+  std::vector<std::int8_t> sides_;  ///< by tet of cut_: -1 inside, 1 outside, 0 not split
+};
+
+}  // namespace
+
+CutResult cut_along(const TetMesh& mesh, std::span<const double> values,
+                    const CutOptions& options) {
+  check_options(options);
+  CutResult out;
+  std::vector<double> shifted = checked_values(mesh, values, options.isovalue, out.report);
+  out.mesh = Cut(mesh, std::move(shifted), options, out.report).run();
+  return out;
+}
+
+CutResult cut_along(const TetMesh& mesh, const std::function<double(const Vec3&)>& function,
+                    CutOptions options) {
+  std::vector<double> values(mesh.points.size());
+  parallel_for(values.size(), [&](std::size_t v) { values[v] = function(mesh.points[v]); });
+  options.function = function;
+  return cut_along(mesh, values, options);
+}
+
+}  // namespace cavea

@@ -1,0 +1,1 @@
+cavea_test(implicit implicit remesh)
