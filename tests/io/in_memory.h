@@ -24,8 +24,8 @@ inline std::vector<double> parse_sizes(std::string_view input, Encoding encoding
                                        std::size_t expected) {
   std::vector<char> copy(input.begin(), input.end());
   if (encoding == Encoding::text)
-    return medit::read_solution(medit::MeditText(copy, "memory"), expected);
-  return medit::read_solution(medit::MeditBytes(copy, "memory"), expected);
+    return medit::read_solution(medit::MeditText(copy, "memory"), expected, SolutionKind::kSizes);
+  return medit::read_solution(medit::MeditBytes(copy, "memory"), expected, SolutionKind::kSizes);
 }
 
 }  // namespace cavea::test
