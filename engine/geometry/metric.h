@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "cavea/geometry/vec3.h"
@@ -16,6 +17,15 @@ inline double metric_length(double length, double h0, double h1) {
     return length / h0 * (1 - r * (0.5 - r / 3));
   }
   return length * std::log(h1 / h0) / d;
+}
+
+/// Whether metric_length() exceeds `limit`, given the squared Euclidean length: mostly without the
+/// root and the logarithm, since the size along the edge lies between those of its ends.
+inline bool length_exceeds(double length2, double h0, double h1, double limit) {
+  const auto [low, high] = std::minmax(h0, h1);
+  if (length2 <= limit * limit * low * low) return false;
+  if (length2 > limit * limit * high * high) return true;
+  return metric_length(std::sqrt(length2), h0, h1) > limit;
 }
 
 /// The longest and shortest edge a mesh should have in its metric: an edge above is split, one

@@ -5,7 +5,7 @@
 namespace cavea {
 
 SurfaceFit fit_triangle(const OperatorContext& context, const std::array<Vec3, 3>& t, int patch,
-                        std::span<const Anchor> hints) {
+                        std::span<const Anchor> hints, unsigned sides) {
   constexpr SurfaceFit kNoFit{-1, std::numeric_limits<double>::infinity()};
   const Vec3 n = normalized(cross(t[1] - t[0], t[2] - t[0]));
   if (norm2(n) == 0) return kNoFit;
@@ -14,6 +14,7 @@ SurfaceFit fit_triangle(const OperatorContext& context, const std::array<Vec3, 3
   SurfaceFit fit{dot(n, context.surface.normal(at.anchor, patch)),
                  at.distance2 / context.tolerance2(at.anchor)};
   for (int k = 0; k < 3; ++k) {
+    if (!(sides >> k & 1)) continue;
     const Vec3 middle = (t[std::size_t(k)] + t[std::size_t(k + 1) % 3]) / 2;
     const SurfacePoint p = context.surface.place(middle, patch, {&at.anchor, 1});
     fit.deviation2 = std::max(fit.deviation2, p.distance2 / context.tolerance2(p.anchor));
@@ -32,18 +33,26 @@ SurfaceFit fit_of(const OperatorContext& c, const std::vector<TriangleId>& trian
   return fit;
 }
 
+namespace {
+
+/// Cosine of the largest angle between a triangle and the ideal surface below it: 60 degrees, wider
+/// than half the default ridge angle so that coarse inputs are not stuck, narrow enough for no
+/// fold.
+constexpr double kFoldCosine = 0.5;
+
+}  // namespace
+
+bool fits_well(const SurfaceFit& fit) { return fit.cosine >= kFoldCosine && fit.deviation2 <= 1; }
+
+Verdict compare_fits(const SurfaceFit& after, const SurfaceFit& before) {
+  if (after.cosine < kFoldCosine && after.cosine < before.cosine) return Verdict::kFolded;
+  if (after.deviation2 > 1 && after.deviation2 > before.deviation2) return Verdict::kOffSurface;
+  return Verdict::kAccept;
+}
+
 Verdict judge_surface(const OperatorContext& c, const SurfaceFit& fit,
                       const std::vector<TriangleId>& old) {
-  // Cosine of the largest angle between a triangle and the ideal surface below it: 60 degrees,
-  // wider than half the default ridge angle so that coarse inputs are not stuck, narrow enough for
-  // no fold.
-  constexpr double kFoldCosine = 0.5;
-  const bool folded = fit.cosine<kFoldCosine, off = fit.deviation2> 1;
-  if (!folded && !off) return Verdict::kAccept;
-  const SurfaceFit before = fit_of(c, old);
-  if (folded && fit.cosine < before.cosine) return Verdict::kFolded;
-  if (off && fit.deviation2 > before.deviation2) return Verdict::kOffSurface;
-  return Verdict::kAccept;
+  return fits_well(fit) ? Verdict::kAccept : compare_fits(fit, fit_of(c, old));
 }
 
 }  // namespace cavea

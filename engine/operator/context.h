@@ -48,6 +48,10 @@ struct OperatorContext {
   double length(VertexId a, VertexId b) const {
     return metric_length(distance(mesh.points[a], mesh.points[b]), mesh.sizes[a], mesh.sizes[b]);
   }
+  bool length_exceeds(VertexId a, VertexId b, double limit) const {
+    return cavea::length_exceeds(distance2(mesh.points[a], mesh.points[b]), mesh.sizes[a],
+                                 mesh.sizes[b], limit);
+  }
   /// Squared distance from the ideal surface that is allowed at an anchor.
   double tolerance2(const Anchor& anchor) const {
     const double t = limits.tolerance_share * surface.tolerance(anchor);
@@ -83,12 +87,19 @@ struct SurfaceFit {
   }
 };
 
-/// Fit of one triangle of `patch`; `hints` are anchors near it.
+/// Fit of one triangle of `patch`; `hints` are anchors near it. Sampled at the centroid and in the
+/// middle of those `sides` (a bit each; side k goes from corner k to the next).
 SurfaceFit fit_triangle(const OperatorContext& context, const std::array<Vec3, 3>& corners,
-                        int patch, std::span<const Anchor> hints);
+                        int patch, std::span<const Anchor> hints, unsigned sides = 7);
 
 /// Fit of triangles of the mesh as they stand.
 SurfaceFit fit_of(const OperatorContext& context, const std::vector<TriangleId>& triangles);
+
+/// Not turned away from the ideal surface, and within the tolerance of it.
+bool fits_well(const SurfaceFit& fit);
+
+/// What does not fit well may still be no worse than what it replaces.
+Verdict compare_fits(const SurfaceFit& after, const SurfaceFit& before);
 
 /// Whether new surface triangles may replace `old` ones: not turned away from the ideal surface and
 /// within the tolerance of it, or at least no worse in that than the old ones.

@@ -117,7 +117,8 @@ Verdict check_surface(const OperatorContext& c, const Cavity& cavity) {
                              c.mesh.anchors[s.p]};
     fit.add(fit_triangle(c, x, t.patch, hints));
   }
-  if (nearest2 > c.tolerance2(c.mesh.anchors[s.p]) && !(c.tags(s.p) & tag::kOffSurface)) return Verdict::kOffSurface;
+  if (nearest2 > c.tolerance2(c.mesh.anchors[s.p]) && !(c.tags(s.p) & tag::kOffSurface))
+    return Verdict::kOffSurface;
   return judge_surface(c, fit, cavity.removed_triangles);
 }
 
@@ -173,7 +174,7 @@ bool makes_long_edge(const OperatorContext& c, double longest) {
   const Shell& s = c.shell;
   for (TetId t : c.ball.tets)
     for (VertexId v : c.mesh.tets[t])
-      if (v != s.q && v != s.p && c.length(s.q, v) > longest) return true;
+      if (v != s.q && v != s.p && c.length_exceeds(s.q, v, longest)) return true;
   return false;
 }
 

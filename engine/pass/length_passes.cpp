@@ -69,8 +69,8 @@ std::vector<EdgeTask> split_tasks(const PartState& s) {
   for_each_asked_edge(m, [&](TetId t, int i, int j) {
     const VertexId a = std::min(m.tets[t][i], m.tets[t][j]),
                    b = std::max(m.tets[t][i], m.tets[t][j]);
-    if (const double length = s.context.length(a, b); length > limits.long_edge)
-      tasks.push_back({float(length), a, b, t});
+    if (s.context.length_exceeds(a, b, limits.long_edge))
+      tasks.push_back({float(s.context.length(a, b)), a, b, t});
     if (i == 0 && j == 1 && s.settings.shortest_fitted > 0) add_misfits(s, t, tasks);
   });
   sort_tasks(tasks);
@@ -83,8 +83,8 @@ std::vector<EdgeTask> collapse_tasks(const PartState& s) {
   for_each_asked_edge(m, [&](TetId t, int i, int j) {
     const VertexId a = std::min(m.tets[t][i], m.tets[t][j]),
                    b = std::max(m.tets[t][i], m.tets[t][j]);
-    if (const double length = s.context.length(a, b); length < s.context.limits.short_edge)
-      tasks.push_back({float(-length), a, b, t});
+    if (!s.context.length_exceeds(a, b, s.context.limits.short_edge))
+      tasks.push_back({float(-s.context.length(a, b)), a, b, t});
   });
   sort_tasks(tasks);
   return tasks;
