@@ -20,11 +20,16 @@ namespace {
 /// Height of a regular tet over its face, in edges.
 constexpr double kRegularHeight = 0.816496580927726;
 
+/// What the wanted size counts against that of the face, in the height of an ideal apex: alone, the
+/// face would keep edges as short or long as they are.
+constexpr double kSizeShare = 0.3;
+
 using In = const double* __restrict;
 using Out = double* __restrict;
 
 CAVEA_WIDE void prepare_faces(std::size_t n, In ax, In ay, In az, In bx, In by, In bz, In cx, In cy,
-                              In cz, Out nx, Out ny, Out nz, Out edges, Out hx, Out hy, Out hz) {
+                              In cz, Out nx, Out ny, Out nz, Out edges, Out hx, Out hy, Out hz,
+                              double size) {
   for (std::size_t i = 0; i < n; ++i) {
     const double ux = bx[i] - ax[i], uy = by[i] - ay[i], uz = bz[i] - az[i];
     const double vx = cx[i] - ax[i], vy = cy[i] - ay[i], vz = cz[i] - az[i];
@@ -33,7 +38,10 @@ CAVEA_WIDE void prepare_faces(std::size_t n, In ax, In ay, In az, In bx, In by, 
     const double sum = (ux * ux + uy * uy + uz * uz) + (vx * vx + vy * vy + vz * vz) +
                        (wx * wx + wy * wy + wz * wz);
     const double n2 = x * x + y * y + z * z;
-    const double h = n2 > 0 ? kRegularHeight * std::sqrt(sum / (3 * n2)) : 0;
+    const double h = n2 > 0 ? kRegularHeight *
+                                  ((1 - kSizeShare) * std::sqrt(sum / 3) + kSizeShare * size) /
+                                  std::sqrt(n2)
+                            : 0;
     nx[i] = x, ny[i] = y, nz[i] = z;
     edges[i] = sum;
     hx[i] = (ax[i] + bx[i] + cx[i]) * (1.0 / 3) - h * x;
@@ -76,10 +84,10 @@ void Star::add(const Vec3& a, const Vec3& b, const Vec3& c) {
   row(kCx)[i] = c.x, row(kCy)[i] = c.y, row(kCz)[i] = c.z;
 }
 
-void Star::prepare() {
+void Star::prepare(double size) {
   prepare_faces(count_, row(kAx), row(kAy), row(kAz), row(kBx), row(kBy), row(kBz), row(kCx),
                 row(kCy), row(kCz), row(kNx), row(kNy), row(kNz), row(kEdges), row(kHx), row(kHy),
-                row(kHz));
+                row(kHz), size);
 }
 
 void Star::evaluate(const Vec3& apex) {

@@ -13,8 +13,8 @@ class Star {
   void clear() { count_ = 0; }
   /// Adds a face, counter-clockwise seen from outside of the star.
   void add(const Vec3& a, const Vec3& b, const Vec3& c);
-  /// Computes what does not depend on the apex; after the last add().
-  void prepare();
+  /// Computes what does not depend on the apex, which wants edges of `size`; after the last add().
+  void prepare(double size);
 
   std::size_t size() const { return count_; }
 
@@ -22,8 +22,8 @@ class Star {
   void evaluate(const Vec3& apex);
   const double* qualities() const { return row(kQuality); }
 
-  /// The apex that would make the tet on face i as regular as the face allows: the height of a
-  /// regular tet over its centroid. The face's first vertex where it has no area.
+  /// The apex that would make the tet on face i as regular as the face allows: over its centroid, at
+  /// the height of a regular tet whose edges are between the face's and the wanted size. The face's first vertex where it has no area.
   Vec3 ideal_apex(std::size_t i) const;
 
  private:

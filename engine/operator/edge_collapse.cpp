@@ -9,6 +9,10 @@ namespace {
 /// mends them.
 constexpr double kRelaxedLong = 1.4;
 
+/// Other collapses may make edges this many times too long, which the next sweep splits or
+/// relocation shortens: without, two of three edges that stay too short are stuck.
+constexpr double kToleratedLong = 1.05;
+
 constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
 
 int index_in(const Triangle& t, VertexId v) {
@@ -186,7 +190,7 @@ Verdict edge_collapse(OperatorContext& c, bool quality_gain, Cavity& cavity) {
   if (const Verdict v = may_merge(c); v != Verdict::kAccept) return v;
   gather_ball(c.mesh, s.p, c.marker, c.ball);
   if (c.ball.cut) return Verdict::kFrozen;
-  if (makes_long_edge(c, (quality_gain ? kRelaxedLong : 1) * c.limits.long_edge))
+  if (makes_long_edge(c, (quality_gain ? kRelaxedLong : kToleratedLong) * c.limits.long_edge))
     return Verdict::kBadLength;
   if (const Verdict v = make_tets(c, quality_gain, cavity); v != Verdict::kAccept) return v;
   if (c.tags(s.p) & tag::kSurface) {

@@ -28,7 +28,7 @@ void prepare_star(OperatorContext& c, VertexId v) {
     const int* f = kFaceVertices[c.mesh.local_index(t, v)];
     c.star.add(c.point(k[f[0]]), c.point(k[f[1]]), c.point(k[f[2]]));
   }
-  c.star.prepare();
+  c.star.prepare(c.mesh.sizes[v]);
 }
 
 /// Mean, weighted towards bad tets, of the places of the vertex that would make each tet of its

@@ -6,8 +6,6 @@
 namespace cavea {
 
 CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings) {
-  // Fewer changes than this share of the tets in a sweep: the rest is left to the next round.
-  constexpr double kSettled = 0.001;
   PartState state(mesh, surface, settings);
   for (int sweep = 0; sweep < settings.sweeps; ++sweep) {
     if (settings.cancel && settings.cancel->load(std::memory_order_relaxed)) throw Cancelled();
@@ -17,7 +15,7 @@ CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
     if (sweep == 0 && settings.move && settings.shake_below > 0) shake_pass(state);
     changes += quality_pass(state);
     if (settings.move) changes += move_pass(state);
-    if (double(changes) <= kSettled * double(state.editor.living_tets()) || state.result.full)
+    if (double(changes) <= settings.settled * double(state.editor.living_tets()) || state.result.full)
       break;
   }
   return state.result;

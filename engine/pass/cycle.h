@@ -16,6 +16,9 @@ struct CycleSettings {
   /// down to this Euclidean length; 0: never.
   double shortest_fitted = 0;
   int sweeps = 6;
+  /// After a sweep that changed no more than this share of the tets the rest is left to the next
+  /// round.
+  double settled = 0.001;
   /// Stop splitting when the part has this many tets: it is then partitioned anew.
   std::int64_t most_tets = kMaxTets;
   /// Tets better than this are not asked for swaps.

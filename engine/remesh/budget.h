@@ -36,9 +36,9 @@ class Budget {
   double scale_ = 1;
   double tets_per_regular_ = kTetsPerRegular;
 
-  /// Tets in a mesh of ours over regular tets of the wanted sizes: 1.24 to 1.30 on bodies with
+  /// Tets in a mesh of ours over regular tets of the wanted sizes: 1.12 to 1.21 on bodies with
   /// curved surfaces and graded maps, at 50 to 550 thousand tets.
-  static constexpr double kTetsPerRegular = 1.26;
+  static constexpr double kTetsPerRegular = 1.16;
 };
 
 }  // namespace cavea

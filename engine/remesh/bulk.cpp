@@ -14,7 +14,7 @@ namespace {
 /// choose better.
 constexpr double kBulkEdge = 2.6;
 /// A level is worth its cost when this share of the tets would be divided.
-constexpr double kWorthwhile = 0.05;
+constexpr double kWorthwhile = 0.02;
 constexpr int kMostLevels = 16;
 
 bool is_long(const TetMesh& m, VertexId a, VertexId b) {

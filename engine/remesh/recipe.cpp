@@ -70,6 +70,8 @@ std::vector<Phase> mending_recipe(const ResolvedOptions& o) {
   adapt.local = true;
   adapt.cycle.shake_below = 0;
   finish.rounds = 1;
+  // What is asked is little of the whole, and is to be mended to the end.
+  for (Phase* p : {&adapt, &finish}) p->settled = p->cycle.settled = 0;
   return {adapt, finish};
 }
 

@@ -36,8 +36,9 @@ constexpr double kMeasuredShare = 0.95;
 /// Places that are still too far from the surface after this many repairs are left and reported.
 constexpr int kRepairs = 7;
 
-/// Poor tets that are left after as many mendings are left for good.
-constexpr int kMendings = 3;
+/// Poor tets are mended at most so often, each time unless more than this share of them stayed so.
+constexpr int kMends = 5;
+constexpr double kMended = 0.9;
 
 /// A budget of tets is met when it is exceeded by no more than this share.
 constexpr double kBudgetMargin = 0.1;
@@ -67,7 +68,7 @@ class Run {
     if (!mends_) timed("bulk", [&] { refine(); });
     for (const Phase& phase : mends_ ? mending_recipe(r_) : recipe(r_))
       timed(phase.name, [&] { run_phase(phase); });
-    for (int k = 0; k < kMendings && may_mend_more(); ++k) timed("mending", [&] { mend(); });
+    mend_poor();
     timed("measurement", [&] { distance_ = measure_distance(); });
     for (int k = 0; k < kRepairs && may_repair() && distance_.worse().worst > kMeasuredShare; ++k) {
       timed("repair", [&] { repair(); });
@@ -187,6 +188,21 @@ class Run {
     return true;
   }
 
+  /// Phases end when little of the whole changes: what is poor then may be little of it, and is
+  /// asked for itself as long as that helps.
+  void mend_poor() {
+    std::int64_t poor = count_poor(mesh_);
+    for (int k = 0; k < kMends && poor > 0; ++k) {
+      ask_only_poor(mesh_);
+      timed("mending", [&] {
+        for (const Phase& phase : mending_recipe(r_)) run_phase(phase);
+      });
+      const std::int64_t left = count_poor(mesh_);
+      if (double(left) > kMended * double(poor)) break;
+      poor = left;
+    }
+  }
+
   /// A mesh that stands is as fine as its surface asks for: its triangles are within the tolerance
   /// of what they stand for, and a smooth surface that bulges more is not that.
   void trust_facets() {
@@ -227,21 +243,6 @@ class Run {
       ask_changed_lengths(mesh_, before);
     else
       ask_lengths(mesh_);
-  }
-
-  /// Whether there are fewer bad tets than there were before the last mending, and not none.
-  bool may_mend_more() {
-    const std::int64_t bad = count_worse(mesh_, kSoundQuality),
-                       before = bad_tets_.value_or(bad + 1);
-    bad_tets_ = bad;
-    return bad > 0 && bad < before;
-  }
-
-  /// Phases end when little changes in the whole mesh, though the worst tets have not been asked
-  /// often enough.
-  void mend() {
-    ask_poor(mesh_);
-    for (const Phase& phase : mending_recipe(r_)) run_phase(phase);
   }
 
   bool more_for_budget(const Phase& phase, int round) const {
@@ -324,7 +325,6 @@ class Run {
   SizeField field_;
   const Options& options_;
   Effort effort_;
-  std::optional<std::int64_t> bad_tets_;  ///< before the last mending
   bool may_mend_ =
       false;            ///< the input has the surface and number of tets wanted, operators are free
   bool mends_ = false;  ///< only poor tets are asked

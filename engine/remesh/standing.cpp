@@ -46,18 +46,6 @@ double share_of_poor(const QualityStatistics& q) {
          double(std::accumulate(bins.begin(), bins.end(), std::int64_t{0}));
 }
 
-template <class Is>
-std::int64_t count_tets(const TetMesh& mesh, Is&& is) {
-  return parallel_reduce(
-      mesh.tets.size(), std::int64_t{0},
-      [&](std::size_t begin, std::size_t end) {
-        std::int64_t n = 0;
-        for (std::size_t t = begin; t < end; ++t) n += is(TetId(t));
-        return n;
-      },
-      std::plus<>{});
-}
-
 template <class Ask>
 void ask_lengths_where(TetMesh& m, Ask&& ask) {
   parallel_for(m.tets.size(), [&](std::size_t t) {
@@ -86,13 +74,19 @@ bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const O
          after.lengths.conforming_percent() < before.lengths.conforming_percent() + 100 * kGain;
 }
 
-bool few_are_poor(const TetMesh& mesh) {
-  const std::int64_t poor = count_tets(mesh, [&](TetId t) { return is_poor(mesh, t); });
-  return double(poor) <= kFew * double(mesh.tets.size());
+std::int64_t count_poor(const TetMesh& mesh) {
+  return parallel_reduce(
+      mesh.tets.size(), std::int64_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::int64_t n = 0;
+        for (std::size_t t = begin; t < end; ++t) n += is_poor(mesh, TetId(t));
+        return n;
+      },
+      std::plus<>{});
 }
 
-std::int64_t count_worse(const TetMesh& mesh, double quality) {
-  return count_tets(mesh, [&](TetId t) { return mesh.qualities[t] < quality; });
+bool few_are_poor(const TetMesh& mesh) {
+  return double(count_poor(mesh)) <= kFew * double(mesh.tets.size());
 }
 
 void ask_nothing(TetMesh& mesh) {

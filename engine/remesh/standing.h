@@ -17,8 +17,10 @@ bool is_as_good_as_results(const MeshSummary& now, bool uniform, double conform)
 /// a target of the options that they missed.
 bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const Options& options);
 
-/// Whether the tets that are far from what is wanted, in quality or in length, are so few that they
-/// may be mended one by one. Needs the sizes.
+/// How many tets are poor: far from what is wanted, in quality or in length. Needs the sizes.
+std::int64_t count_poor(const TetMesh& mesh);
+
+/// Whether so few are poor that they may be mended one by one.
 bool few_are_poor(const TetMesh& mesh);
 
 /// The number of tets of less than a quality.
