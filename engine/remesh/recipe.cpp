@@ -43,7 +43,7 @@ Phase fine(const ResolvedOptions& o) {
   p.cycle.limits.shortest_made = 0.6;
   p.cycle.limits.quality_ratio = 0.7;
   p.cycle.limits.quality_floor = 0.3;
-  p.budget_rounds = 2;
+  p.budget_rounds = 4;
   p.cycle.sweeps = 5;
   p.cycle.swap_ceiling = 0.75;
   p.cycle.repair_below = 0.2;

@@ -193,7 +193,8 @@ class Run {
   void mend_poor() {
     std::int64_t poor = count_poor(mesh_);
     for (int k = 0; k < kMends && poor > 0; ++k) {
-      ask_only_poor(mesh_);
+      ask_nothing(mesh_);
+      ask_poor(mesh_);
       timed("mending", [&] {
         for (const Phase& phase : mending_recipe(r_)) run_phase(phase);
       });

@@ -14,9 +14,11 @@ namespace {
 /// bodies of all kinds. A mesh below may have something to gain, but if it is thin everywhere.
 constexpr double kUniformMean = 0.80, kVaryingMean = 0.78;
 
-/// Runs from two meshes of the same sizes differ by less in the mean quality, in the share of poor
-/// tets, and in the share of edges that conform.
+/// Runs from two meshes of the same sizes differ by less in the mean quality and in the share of
+/// poor tets.
 constexpr double kGain = 0.01;
+/// The same for the percent of lengths that conform: the sizes are those of another surface.
+constexpr double kConformGain = 2.5;
 /// The same for the worst quality, which is that of a single tet.
 constexpr double kWorstGain = 0.05;
 
@@ -71,7 +73,7 @@ bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const O
   return met(after) <= met(before) && !worst_rose &&
          after.quality.mean < before.quality.mean + kGain &&
          share_of_poor(after.quality) > share_of_poor(before.quality) - kGain &&
-         after.lengths.conforming_percent() < before.lengths.conforming_percent() + 100 * kGain;
+         after.lengths.conforming_percent() < before.lengths.conforming_percent() + kConformGain;
 }
 
 std::int64_t count_poor(const TetMesh& mesh) {

@@ -202,7 +202,7 @@ TEST(Sizes, WithoutGradationMayJump) {
     expect_sound(mesh);
     return report.after.counts.tets;
   };
-  EXPECT_LT(double(tets(std::nullopt)), 0.9 * double(tets(1.3)));
+  EXPECT_LT(double(tets(std::nullopt)), 0.9 * double(tets(1.2)));
 }
 
 struct Motion {
