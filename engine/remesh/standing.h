@@ -23,9 +23,6 @@ std::int64_t count_poor(const TetMesh& mesh);
 /// Whether so few are poor that they may be mended one by one.
 bool few_are_poor(const TetMesh& mesh);
 
-/// The number of tets of less than a quality.
-std::int64_t count_worse(const TetMesh& mesh, double quality);
-
 /// No tet is asked any more.
 void ask_nothing(TetMesh& mesh);
 
