@@ -33,13 +33,15 @@ enum class Operator : std::uint8_t {
   kEdgeSwap,
   kFaceSwap,
   kRelocate,
-  kEdgeStar
+  kEdgeStar,
+  kReconnect
 };
-inline constexpr int kOperators = 6;
+inline constexpr int kOperators = 7;
 
 inline const char* name(Operator o) {
   constexpr std::array<const char*, kOperators> kNames = {
-      "edge_split", "edge_collapse", "edge_swap", "face_swap", "relocate", "edge_star"};
+      "edge_split", "edge_collapse", "edge_swap", "face_swap",
+      "relocate",   "edge_star",     "reconnect"};
   return kNames[static_cast<std::size_t>(o)];
 }
 

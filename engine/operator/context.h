@@ -7,6 +7,7 @@
 #include "cavea/geometry/metric.h"
 #include "cavea/geometry/star.h"
 #include "cavea/mesh/local.h"
+#include "cavea/operator/small_polyhedron.h"
 #include "cavea/surface/surface_model.h"
 
 namespace cavea {
@@ -41,7 +42,8 @@ struct OperatorContext {
   Shell shell;
   std::vector<TriangleId> fan;
   std::vector<float> qualities;
-  Star star;  ///< of the ball, while its vertex is relocated
+  SmallPolyhedron polyhedron;  ///< of the cavity that is reconnected
+  Star star;                   ///< of the ball, while its vertex is relocated
 
   Vec3 point(VertexId v) const { return mesh.points[v]; }
   Tag tags(VertexId v) const { return mesh.vertex_tags[v]; }

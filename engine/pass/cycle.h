@@ -31,6 +31,8 @@ struct CycleSettings {
   double shake_below = 0;
   /// Tets worse than this are also offered collapses for the sake of quality.
   double repair_below = 0;
+  /// Tets worse than this are also offered a reconnection of the cavity around them.
+  double reconnect_below = 0;
   const std::atomic<bool>* cancel = nullptr;
 };
 

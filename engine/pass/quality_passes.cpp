@@ -4,6 +4,7 @@
 #include "cavea/operator/edge_star.h"
 #include "cavea/operator/edge_swap.h"
 #include "cavea/operator/face_swap.h"
+#include "cavea/operator/reconnect.h"
 #include "cavea/operator/relocate.h"
 #include "cavea/pass/passes.h"
 
@@ -69,9 +70,11 @@ class QualityQueue {
     ++clock_;
     if (s_.settings.swap && swap(t, quality)) return;
     asked_[t] = clock_;
-    if (quality >= s_.settings.repair_below) return;
-    if (s_.settings.collapse && collapse_for_quality(t)) return;
-    if (s_.settings.insert) star_for_quality(t);
+    const bool bad = quality < s_.settings.repair_below;
+    if (bad && s_.settings.collapse && collapse_for_quality(t)) return;
+    const bool poor = quality < s_.settings.reconnect_below;
+    if (poor && s_.settings.swap && reconnect_for_quality(t)) return;
+    if (bad && s_.settings.insert) star_for_quality(t);
   }
 
   bool swap(TetId t, double quality) {
@@ -114,6 +117,13 @@ class QualityQueue {
         return true;
       }
     return false;
+  }
+
+  bool reconnect_for_quality(TetId t) {
+    const Verdict v = reconnect(s_.context, t, s_.settings.collapse, s_.cavity);
+    if (!s_.count(Operator::kReconnect, v)) return false;
+    committed();
+    return true;
   }
 
   bool star_for_quality(TetId t) {

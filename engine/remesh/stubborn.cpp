@@ -7,6 +7,7 @@
 #include "cavea/operator/edge_star.h"
 #include "cavea/operator/edge_swap.h"
 #include "cavea/operator/face_swap.h"
+#include "cavea/operator/reconnect.h"
 #include "cavea/operator/relocate.h"
 #include "cavea/remesh/obstacle.h"
 
@@ -38,6 +39,7 @@ class Inquiry {
     verdicts_ = {};
     for (const auto& e : kEdgeVertices) ask_edge(t, e[0], e[1]);
     for (int i = 0; i < 4; ++i) ask_face_and_vertex(t, i);
+    add(settings_.swap, Operator::kReconnect, reconnect(context_, t, settings_.collapse, cavity_));
     const auto [a, b, c, d] = mesh_.corners(t);
     return {(a + b + c + d) / 4, mesh_.qualities[t], counts_of(verdicts_),
             obstacle_of(context_, t)};

@@ -28,6 +28,12 @@ std::vector<Item> faces_of(const TetMesh& mesh) {
   return faces;
 }
 
+std::vector<Item> tets_of(const TetMesh& mesh) {
+  std::vector<Item> tets;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) tets.push_back({TetId(t), 0});
+  return tets;
+}
+
 std::vector<Item> vertices_of(const TetMesh& mesh) {
   std::vector<Item> vertices;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) vertices.push_back({VertexId(v), 0});
@@ -60,6 +66,10 @@ const Action kActions[] = {
      [](Stage& s, const Item& e) {
        return s.find_edge(e[0], e[1]) &&
               commit_if(s, edge_star(s.context, s.editor.next_vertex(), s.cavity));
+     }},
+    {Operator::kReconnect, tets_of,
+     [](Stage& s, const Item& t) {
+       return s.mesh.tet_alive(t[0]) && commit_if(s, reconnect(s.context, t[0], true, s.cavity));
      }},
 };
 

@@ -15,6 +15,7 @@
 #include "cavea/operator/edge_star.h"
 #include "cavea/operator/edge_swap.h"
 #include "cavea/operator/face_swap.h"
+#include "cavea/operator/reconnect.h"
 #include "cavea/operator/relocate.h"
 #include "cavea/surface/features.h"
 #include "support/expect.h"
@@ -28,16 +29,16 @@ inline constexpr double kTolerance = 0.02;
 /// Larger than any of them: with it no edge is too long.
 inline constexpr double kLargeSize = 100;
 
-inline TetMesh classified(const MeshData& data) {
-  TetMesh mesh = build(data).mesh;
+inline TetMesh classified(const MeshData& data, const BuildOptions& options) {
+  TetMesh mesh = build(data, options).mesh;
   classify_features(mesh, {});
   return mesh;
 }
 
 /// A mesh with its ideal surface, an editor and a cavity; wanted sizes are the same everywhere.
 struct Stage {
-  explicit Stage(const MeshData& data, double size = kLargeSize)
-      : mesh(classified(data)),
+  explicit Stage(const MeshData& data, double size = kLargeSize, const BuildOptions& options = {})
+      : mesh(classified(data, options)),
         surface(mesh, {kTolerance, 3 * kTolerance, size / 10, size}),
         editor(mesh),
         context(mesh, surface) {

@@ -69,7 +69,7 @@ struct Frozen {
 const std::vector<Frozen> kFrozen = {
     {"insert", &Freezes::insert, {"edge_split", "edge_star"}},
     {"collapse", &Freezes::collapse, {"edge_collapse"}},
-    {"swap", &Freezes::swap, {"edge_swap", "face_swap"}},
+    {"swap", &Freezes::swap, {"edge_swap", "face_swap", "reconnect"}},
     {"move", &Freezes::move, {"relocate"}},
 };
 

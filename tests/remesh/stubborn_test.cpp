@@ -57,9 +57,9 @@ TEST(Stubborn, AWedgeThatIsBluntEnoughIsNoReason) {
 }
 
 TEST(Stubborn, EveryOperatorIsAsked) {
-  const std::map<std::string, std::int64_t> kQuestions = {{"edge_split", 6}, {"edge_collapse", 12},
-                                                          {"edge_swap", 6},  {"edge_star", 6},
-                                                          {"face_swap", 4},  {"relocate", 4}};
+  const std::map<std::string, std::int64_t> kQuestions = {
+      {"edge_split", 6}, {"edge_collapse", 12}, {"edge_swap", 6}, {"edge_star", 6},
+      {"face_swap", 4},  {"relocate", 4},       {"reconnect", 1}};
   const Report report = report_of(wedge(8), uniform(0.1));
   for (const StubbornTet& t : report.stubborn) {
     std::map<std::string, std::int64_t> asked;
@@ -75,7 +75,9 @@ TEST(Stubborn, WhatIsFrozenIsNotAsked) {
   ASSERT_FALSE(report.stubborn.empty());
   for (const StubbornTet& t : report.stubborn)
     for (const VerdictCount& v : t.verdicts)
-      EXPECT_TRUE(v.op != "edge_swap" && v.op != "face_swap" && v.op != "relocate") << v.op;
+      EXPECT_TRUE(v.op != "edge_swap" && v.op != "face_swap" && v.op != "reconnect" &&
+                  v.op != "relocate")
+          << v.op;
 }
 
 TEST(Stubborn, TetsAcrossAThinWallAreNamedWithItsThickness) {
