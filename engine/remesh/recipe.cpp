@@ -57,7 +57,7 @@ Phase polish(const ResolvedOptions& o) {
   p.cycle.limits.quality_floor = 0.4;
   p.cycle.sweeps = 4;
   p.cycle.repair_below = 0.45;
-  p.cycle.reconnect_below = 0.7;
+  p.cycle.reconnect_below = 0.5;
   p.resize = false;
   return p;
 }
