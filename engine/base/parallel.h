@@ -73,16 +73,19 @@ inline constexpr std::size_t kReduceBlock = 8192;
 /// block order.
 template <class T, class Map, class Combine>
 T parallel_reduce(std::size_t n, T identity, Map&& map, Combine&& combine) {
+  struct Partial {  // a vector of bool would share words between tasks
+    T value;
+  };
   const std::size_t blocks = (n + kReduceBlock - 1) / kReduceBlock;
-  std::vector<T> partial(blocks, identity);
+  std::vector<Partial> partial(blocks, Partial{identity});
   parallel_for(
       blocks,
       [&](std::size_t k) {
-        partial[k] = map(k * kReduceBlock, std::min(n, (k + 1) * kReduceBlock));
+        partial[k].value = map(k * kReduceBlock, std::min(n, (k + 1) * kReduceBlock));
       },
       1);
   T total = identity;
-  for (const T& p : partial) total = combine(total, p);
+  for (const Partial& p : partial) total = combine(total, p.value);
   return total;
 }
 
