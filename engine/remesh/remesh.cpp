@@ -225,6 +225,7 @@ class Run {
     for (int round = 1; round <= phase.rounds || more_for_budget(phase, round); ++round) {
       tell(phase.name, round);
       if (phase.resize && round > 1 && sizes_vary_) resize_and_ask(phase.local);
+      if (report_.part_of_tet.size() == mesh_.tets.size() && is_nothing_asked(mesh_)) break;
       if (phase.growth > 0)
         settings.most_tets = std::int64_t(phase.growth * double(mesh_.tets.size()) /
                                           part_count(std::int64_t(mesh_.tets.size()))) +

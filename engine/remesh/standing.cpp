@@ -48,6 +48,18 @@ double share_of_poor(const QualityStatistics& q) {
          double(std::accumulate(bins.begin(), bins.end(), std::int64_t{0}));
 }
 
+template <class Is>
+std::int64_t count_tets(const TetMesh& mesh, Is&& is) {
+  return parallel_reduce(
+      mesh.tets.size(), std::int64_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::int64_t n = 0;
+        for (std::size_t t = begin; t < end; ++t) n += is(TetId(t));
+        return n;
+      },
+      std::plus<>{});
+}
+
 template <class Ask>
 void ask_lengths_where(TetMesh& m, Ask&& ask) {
   parallel_for(m.tets.size(), [&](std::size_t t) {
@@ -77,14 +89,7 @@ bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const O
 }
 
 std::int64_t count_poor(const TetMesh& mesh) {
-  return parallel_reduce(
-      mesh.tets.size(), std::int64_t{0},
-      [&](std::size_t begin, std::size_t end) {
-        std::int64_t n = 0;
-        for (std::size_t t = begin; t < end; ++t) n += is_poor(mesh, TetId(t));
-        return n;
-      },
-      std::plus<>{});
+  return count_tets(mesh, [&](TetId t) { return is_poor(mesh, t); });
 }
 
 bool few_are_poor(const TetMesh& mesh) {
@@ -93,6 +98,11 @@ bool few_are_poor(const TetMesh& mesh) {
 
 void ask_nothing(TetMesh& mesh) {
   parallel_for(mesh.tets.size(), [&](std::size_t t) { mesh.tet_flags[t] &= tet_flag::kRequired; });
+}
+
+bool is_nothing_asked(const TetMesh& mesh) {
+  return count_tets(mesh, [&](TetId t) { return (mesh.tet_flags[t] & tet_flag::kAskAll) != 0; }) ==
+         0;
 }
 
 void ask_poor(TetMesh& mesh) {

@@ -25,6 +25,7 @@ bool few_are_poor(const TetMesh& mesh);
 
 /// No tet is asked any more.
 void ask_nothing(TetMesh& mesh);
+bool is_nothing_asked(const TetMesh& mesh);
 
 /// Asks those tets everything.
 void ask_poor(TetMesh& mesh);
