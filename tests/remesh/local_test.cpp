@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cavea/base/error.h"
+#include "remesh/refused.h"
 #include "remesh/support.h"
 
 namespace cavea::test {
@@ -88,27 +89,17 @@ TEST(Local, TolerancesHoldAtTheirTriangles) {
 }
 
 TEST(Local, ContradictionsAreRefused) {
-  const auto expect = [](const std::string& named, auto&& set) {
-    Options options;
-    set(options);
-    try {
-      validate(options);
-      ADD_FAILURE() << named << " was taken";
-    } catch (const OptionError& e) {
-      EXPECT_NE(std::string(e.what()).find(named), std::string::npos) << e.what();
-    }
-  };
   const LocalParameters fine{Entity::kTriangles, 1, 0.1, 0.2, {}};
   const SizeRegion sphere = SizeSphere{{0, 0, 0}, 1, 0.1};
-  expect("two local", [&](Options& o) { o.local = {fine, fine}; });
-  expect("hsiz", [&](Options& o) { o.local = {fine}, o.hsiz = 1; });
-  expect("hsiz", [&](Options& o) { o.size_regions = {sphere}, o.hsiz = 1; });
-  expect("hmin", [&](Options& o) { o.size_regions = {sphere}, o.hmin = 0.2; });
-  expect("hmax", [](Options& o) { o.local = {{Entity::kTets, 1, 0.2, 0.1, {}}}; });
-  expect("hausd", [](Options& o) { o.local = {{Entity::kTets, 1, {}, {}, 0.1}}; });
-  expect("no parameter", [](Options& o) { o.local = {{Entity::kTets, 1, {}, {}, {}}}; });
-  expect("box", [](Options& o) { o.size_regions = {SizeBox{{0, 0, 0}, {1, 0, 1}, 1}}; });
-  expect("radius", [](Options& o) { o.size_regions = {SizeSphere{{0, 0, 0}, -1, 1}}; });
+  expect_refused([&](Options& o) { o.local = {fine, fine}; }, "two local");
+  expect_refused([&](Options& o) { o.local = {fine}, o.hsiz = 1; }, "hsiz");
+  expect_refused([&](Options& o) { o.size_regions = {sphere}, o.hsiz = 1; }, "hsiz");
+  expect_refused([&](Options& o) { o.size_regions = {sphere}, o.hmin = 0.2; }, "hmin");
+  expect_refused([](Options& o) { o.local = {{Entity::kTets, 1, 0.2, 0.1, {}}}; }, "hmax");
+  expect_refused([](Options& o) { o.local = {{Entity::kTets, 1, {}, {}, 0.1}}; }, "hausd");
+  expect_refused([](Options& o) { o.local = {{Entity::kTets, 1, {}, {}, {}}}; }, "no parameter");
+  expect_refused([](Options& o) { o.size_regions = {SizeBox{{0, 0, 0}, {1, 0, 1}, 1}}; }, "box");
+  expect_refused([](Options& o) { o.size_regions = {SizeSphere{{0, 0, 0}, -1, 1}}; }, "radius");
 }
 
 }  // namespace

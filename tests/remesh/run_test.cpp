@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "cavea/base/error.h"
+#include "remesh/refused.h"
 #include "remesh/support.h"
 
 namespace cavea::test {
@@ -12,18 +13,6 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-template <class Set>
-void expect_refused(Set&& set, const std::string& named) {
-  Options options;
-  set(options);
-  try {
-    validate(options);
-    ADD_FAILURE() << named << " was taken";
-  } catch (const OptionError& e) {
-    EXPECT_NE(std::string(e.what()).find(named), std::string::npos) << e.what();
-  }
-}
 
 TEST(Options, AreRefusedWhenSenseless) {
   for (const double bad : {0.0, -1.0, kNan, kInfinity}) {

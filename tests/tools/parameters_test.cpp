@@ -25,14 +25,19 @@ constexpr const char* kJson = R"({
 
 constexpr const char* kMmg = "Parameters\n2\n\n3 Triangles 0.1 0.5 0.001\n-2 tetrahedra 1 1.5 9\n";
 
+/// What both texts say first.
+void expect_first(const LocalParameters& local) {
+  EXPECT_EQ(local.entity, Entity::kTriangles);
+  EXPECT_EQ(local.reference, 3);
+  EXPECT_EQ(local.hmin, 0.1);
+  EXPECT_EQ(local.hmax, 0.5);
+  EXPECT_EQ(local.hausd, 0.001);
+}
+
 TEST(Parameters, OfJsonAreRead) {
   const Parameters p = program::parse_parameters_json(kJson, "p.json");
   ASSERT_EQ(p.local.size(), 2u);
-  EXPECT_EQ(p.local[0].entity, Entity::kTriangles);
-  EXPECT_EQ(p.local[0].reference, 3);
-  EXPECT_EQ(p.local[0].hmin, 0.1);
-  EXPECT_EQ(p.local[0].hmax, 0.5);
-  EXPECT_EQ(p.local[0].hausd, 0.001);
+  expect_first(p.local[0]);
   EXPECT_EQ(p.local[1].entity, Entity::kTets);
   EXPECT_EQ(p.local[1].reference, -2);
   EXPECT_FALSE(p.local[1].hmin);
@@ -50,11 +55,7 @@ TEST(Parameters, OfJsonAreRead) {
 TEST(Parameters, OfMmgAreRead) {
   const Parameters p = program::parse_parameters_mmg3d(kMmg, "p.mmg3d");
   ASSERT_EQ(p.local.size(), 2u);
-  EXPECT_EQ(p.local[0].entity, Entity::kTriangles);
-  EXPECT_EQ(p.local[0].reference, 3);
-  EXPECT_EQ(p.local[0].hmin, 0.1);
-  EXPECT_EQ(p.local[0].hmax, 0.5);
-  EXPECT_EQ(p.local[0].hausd, 0.001);
+  expect_first(p.local[0]);
   EXPECT_EQ(p.local[1].entity, Entity::kTets);
   EXPECT_EQ(p.local[1].hmax, 1.5);
   EXPECT_FALSE(p.local[1].hausd) << "it has no meaning";
