@@ -49,9 +49,12 @@ std::vector<double> checked_values(const TetMesh& mesh, std::span<const double> 
 
 class Cut {
  public:
-  Cut(const TetMesh& mesh, std::vector<double> values, const CutOptions& options, CutReport& report)
+  /// \param level_set what the values are of, with a gradient; null if only they are known
+  Cut(const TetMesh& mesh, std::vector<double> values, const LevelSet* level_set,
+      const CutOptions& options, CutReport& report)
       : mesh_(mesh),
         values_(std::move(values)),
+        level_set_(level_set),
         options_(options),
         report_(report),
         signs_(cut_signs(mesh, values_)) {
@@ -78,9 +81,8 @@ class Cut {
   NewVertex vertex_on(const MeshEdge& e) const {
     NewVertex made = straight_midpoint(mesh_, e);
     const Vec3 a = mesh_.points[e.a], b = mesh_.points[e.b];
-    const double share = options_.function ? zero_on_edge(options_.function, options_.isovalue, a,
-                                                          b, values_[e.a], values_[e.b])
-                                           : values_[e.a] / (values_[e.a] - values_[e.b]);
+    const double share = level_set_ ? zero_on_edge(*level_set_, a, b, values_[e.a], values_[e.b])
+                                    : values_[e.a] / (values_[e.a] - values_[e.b]);
     made.point = a + (b - a) * std::clamp(share, kLeastCutShare, 1 - kLeastCutShare);
     return made;
   }
@@ -159,9 +161,24 @@ class Cut {
         const CutMaterial& m = material(cut_.tet_refs[t]);
         data.tet_refs[t] = sides_[t] < 0 ? m.inside : m.outside;
       }
-    if (options_.function) add_normals(options_.function, cut_, on_interface, data);
+    if (level_set_) {
+      add_normals(*level_set_, cut_, on_interface, data);
+      measure_sagitta();
+    }
     keep_side(data);
     return build(data).mesh;
+  }
+
+  /// To first order: the value over the slope.
+  void measure_sagitta() {
+    for_each_interface([&](TetId t, int i) {
+      const auto face = face_vertices(cut_.tets[t], i);
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 middle = (cut_.points[face[k]] + cut_.points[face[(k + 1) % 3]]) * 0.5;
+        const double off = std::abs(level_set_->value(middle)) / norm(level_set_->gradient(middle));
+        if (std::isfinite(off)) report_.sagitta = std::max(report_.sagitta, off);
+      }
+    });
   }
 
   void keep_side(MeshData& data) const {
@@ -184,6 +201,7 @@ class Cut {
 
   const TetMesh& mesh_;
   std::vector<double> values_;
+  const LevelSet* level_set_;
   const CutOptions& options_;
   CutReport& report_;
   std::vector<std::int8_t> signs_;
@@ -191,23 +209,36 @@ class Cut {
   std::vector<std::int8_t> sides_;  ///< by tet of cut_: -1 inside, 1 outside, 0 not split
 };
 
+CutResult cut(const TetMesh& mesh, std::span<const double> values, const LevelSet* level_set,
+              const CutOptions& options) {
+  check_options(options);
+  CutResult out;
+  std::vector<double> shifted = checked_values(mesh, values, options.isovalue, out.report);
+  out.mesh = Cut(mesh, std::move(shifted), level_set, options, out.report).run();
+  return out;
+}
+
 }  // namespace
 
 CutResult cut_along(const TetMesh& mesh, std::span<const double> values,
                     const CutOptions& options) {
-  check_options(options);
-  CutResult out;
-  std::vector<double> shifted = checked_values(mesh, values, options.isovalue, out.report);
-  out.mesh = Cut(mesh, std::move(shifted), options, out.report).run();
-  return out;
+  return cut(mesh, values, nullptr, options);
+}
+
+CutResult cut_along(const TetMesh& mesh, const LevelSet& level_set, const CutOptions& options) {
+  std::vector<double> values(mesh.points.size());
+  parallel_for(values.size(), [&](std::size_t v) { values[v] = level_set.value(mesh.points[v]); });
+  LevelSet shifted = with_gradient(level_set, box_diagonal(mesh));
+  if (options.isovalue != 0)
+    shifted.value = [&level_set, iso = options.isovalue](const Vec3& p) {
+      return level_set.value(p) - iso;
+    };
+  return cut(mesh, values, &shifted, options);
 }
 
 CutResult cut_along(const TetMesh& mesh, const std::function<double(const Vec3&)>& function,
-                    CutOptions options) {
-  std::vector<double> values(mesh.points.size());
-  parallel_for(values.size(), [&](std::size_t v) { values[v] = function(mesh.points[v]); });
-  options.function = function;
-  return cut_along(mesh, values, options);
+                    const CutOptions& options) {
+  return cut_along(mesh, LevelSet{function, {}}, options);
 }
 
 }  // namespace cavea

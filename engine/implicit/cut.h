@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "cavea/implicit/level_set.h"
 #include "cavea/mesh/tet_mesh.h"
 
 namespace cavea {
@@ -27,9 +28,6 @@ struct CutOptions {
   /// Components of the inside of less than this share of the whole volume become outside; after
   /// that those of the outside that do not reach the boundary of the domain become inside. In [0,1)
   double remove_components = 0;
-  /// The values anywhere, if known: cuts are then at its zeros, and the surface has its gradient's
-  /// normals. Called from many threads.
-  std::function<double(const Vec3&)> function;
 };
 
 /// What cutting did.
@@ -39,6 +37,8 @@ struct CutReport {
   std::int64_t interface_triangles = 0;
   std::int64_t removed_components = 0, filled_cavities = 0;
   bool open = false;  ///< the level set meets the boundary of the domain
+  /// Of a function: how far its zero is from the middles of the interface's edges, at most.
+  double sagitta = 0;
 };
 
 struct CutResult {
@@ -58,9 +58,11 @@ struct CutResult {
 CutResult cut_along(const TetMesh& mesh, std::span<const double> values,
                     const CutOptions& options = {});
 
-/// The same for a function, with its values at the vertices. Where the mesh is coarse, remesh() is
-/// to be given a max_bulge that lets its smooth surface reach from the cut's edges to the zero.
+/// The same for a function: cuts are at its own zeros (less the isovalue), and the surface has its
+/// gradient's normals. Where the mesh is coarse, remesh() is to be given a max_bulge of the
+/// report's sagitta, so that its smooth surface reaches from the cut's triangles to the zero.
+CutResult cut_along(const TetMesh& mesh, const LevelSet& level_set, const CutOptions& options = {});
 CutResult cut_along(const TetMesh& mesh, const std::function<double(const Vec3&)>& function,
-                    CutOptions options = {});
+                    const CutOptions& options = {});
 
 }  // namespace cavea

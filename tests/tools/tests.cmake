@@ -18,3 +18,7 @@ target_compile_definitions(cavea_test_tools PRIVATE
   CAVEA_SNIPPET="$<TARGET_FILE:cavea_snippet>"
   CAVEA_SOURCE="${PROJECT_SOURCE_DIR}"
   CAVEA_VERSION="${PROJECT_VERSION}")
+# A program without OpenVDB has no grids to try.
+if(NOT (CAVEA_OPENVDB AND CAVEA_OPENVDB_LIBRARY))
+  set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/tools/grid_test.cpp PROPERTIES HEADER_FILE_ONLY ON)
+endif()

@@ -1,20 +1,18 @@
 #include "command_remesh.h"
 
 #include <cstdio>
-#include <functional>
-#include <memory>
 
 #include "cavea/base/error.h"
 #include "cavea/base/memory.h"
-#include "cavea/base/parallel.h"
 #include "cavea/base/timer.h"
-#include "cavea/field/mesh_size_field.h"
 #include "cavea/io/formats.h"
 #include "cavea/remesh/remesh.h"
 #include "exit_status.h"
+#include "grid_domain.h"
 #include "interrupt.h"
 #include "load.h"
 #include "output_names.h"
+#include "prepare.h"
 #include "progress.h"
 #include "run_report.h"
 #include "staging.h"
@@ -33,30 +31,12 @@ void check_names(const RemeshArguments& arguments) {
   if (!arguments.sizes.empty())
     inputs.push_back(
         {arguments.implicit ? "the file of --met" : "the file of --sol", arguments.sizes});
-  if (arguments.implicit) inputs.push_back({"the file of --sol", arguments.implicit->values});
+  if (arguments.implicit && !arguments.implicit->values.empty())
+    inputs.push_back({"the file of --sol", arguments.implicit->values});
   if (!arguments.parameters.empty())
     inputs.push_back({"the file of --params", arguments.parameters});
   if (!arguments.surface.empty()) inputs.push_back({"the file of --surface", arguments.surface});
   check_outputs(inputs, outputs);
-}
-
-/// The sizes that were read with the mesh, as the field that the library asks.
-SizeField field_of(const RemeshArguments& arguments, const TetMesh& mesh) {
-  if (arguments.sizes.empty()) return {};
-  return [map = std::make_shared<MeshSizeField>(mesh)](const Vec3& p) { return (*map)(p); };
-}
-
-/// Cuts the mesh along the level set of the file. \throw InputError, OptionError
-CutReport cut_loaded(const ImplicitArguments& implicit, int threads, LoadedMesh& loaded) {
-  const CutOptions options = to_cut_options(implicit);
-  if (loaded.repairs.unused_vertices != 0)
-    throw InputError("the mesh has vertices of no tet: values cannot be told to be of which");
-  const std::vector<double> values = read_values(implicit.values, loaded.mesh.points.size());
-  CutResult cut;
-  run_in_arena(threads > 0 ? threads : default_threads(),
-               [&] { cut = cut_along(loaded.mesh, values, options); });
-  loaded.mesh = std::move(cut.mesh);
-  return cut.report;
 }
 
 /// Runs the library with a progress line, which is gone when this returns.
@@ -83,7 +63,8 @@ std::vector<std::filesystem::path> write_all(const MeshData& data, RunReport& ru
 RunReport remesh_file(const RemeshArguments& arguments, Options options,
                       const Interrupt& interrupt) {
   Timer timer;
-  LoadedMesh loaded = load_mesh(arguments.input, arguments.sizes, arguments.build);
+  Prepared prepared = prepare(arguments, options);
+  LoadedMesh& loaded = prepared.loaded;
   LoadedMesh surface;
   if (!arguments.surface.empty()) {
     surface = load_mesh(arguments.surface, {}, arguments.build);
@@ -94,11 +75,8 @@ RunReport remesh_file(const RemeshArguments& arguments, Options options,
   const double read_seconds = timer.seconds();
   options.cancel = interrupt.flag();
   options.directions = true;
-  const SizeField field = field_of(arguments, loaded.mesh);
-  std::optional<CutReport> cut;
-  if (arguments.implicit) cut = cut_loaded(*arguments.implicit, options.threads, loaded);
-  RunReport run{arguments, run_library(loaded.mesh, field, options, arguments.quiet), cut,
-                read_seconds};
+  RunReport run{arguments, run_library(loaded.mesh, prepared.field, options, arguments.quiet),
+                prepared.cut, read_seconds};
   std::vector<std::string>& warnings = run.report.warnings;
   warnings.insert(warnings.begin(), loaded.warnings.begin(), loaded.warnings.end());
 
@@ -120,6 +98,9 @@ RunReport remesh_file(const RemeshArguments& arguments, Options options,
 }  // namespace
 
 int run_remesh(const RemeshArguments& arguments) {
+  if (arguments.implicit) check_level_set(*arguments.implicit, is_grid(arguments.input));
+  if (arguments.implicit && is_grid(arguments.input) && !arguments.sizes.empty())
+    throw OptionError("--met is for a mesh: a .vdb file has no vertices");
   const Options options = to_options(arguments);
   check_names(arguments);
   const Interrupt interrupt;

@@ -43,12 +43,17 @@ void add_entry(const std::string& entry, CutOptions& options) {
 
 void add_cut_flags(CLI::App& command, ImplicitArguments& arguments) {
   CutOptions& cut = arguments.cut;
+  command.add_option("--sol", arguments.values,
+                     "The level set's values at the vertices of IN (.sol, .solb)");
+  command.add_option("--grid", arguments.grid, "Which grid of IN (.vdb), if there are several");
   command
-      .add_option("--sol", arguments.values,
-                  "The level set's values at the vertices of IN (.sol, .solb)")
-      ->required();
-  command.add_option("--iso", cut.isovalue, "The inside is where values are smaller")
-      ->capture_default_str();
+      .add_option("--box", arguments.box,
+                  "XMIN,YMIN,ZMIN,XMAX,YMAX,ZMAX: what to mesh of IN (.vdb) [around the level set]")
+      ->expected(6)
+      ->delimiter(',');
+  command.add_option("--iso", arguments.isovalue,
+                     "The inside is where values are smaller; in a fog volume, larger "
+                     "[0; of a fog volume 0.5]");
   command.add_option("--keep", arguments.keep, "What to write of the cut mesh")
       ->check(CLI::IsMember({"both", "inside", "outside"}))
       ->capture_default_str();
@@ -68,8 +73,18 @@ void add_cut_flags(CLI::App& command, ImplicitArguments& arguments) {
       ->allow_extra_args(false);
 }
 
+void check_level_set(const ImplicitArguments& arguments, bool is_grid) {
+  if (is_grid && !arguments.values.empty())
+    throw OptionError("--sol is for a mesh, not for a .vdb file, which has values of its own");
+  if (!is_grid && arguments.values.empty())
+    throw OptionError("--sol is needed: the level set's values at the vertices of the mesh");
+  if (!is_grid && !arguments.grid.empty()) throw OptionError("--grid is for a .vdb file");
+  if (!is_grid && !arguments.box.empty()) throw OptionError("--box is for a .vdb file");
+}
+
 CutOptions to_cut_options(const ImplicitArguments& arguments) {
   CutOptions options = arguments.cut;
+  options.isovalue = arguments.isovalue.value_or(0);
   if (options.material.inside == options.material.outside)
     throw OptionError("--inside-ref and --outside-ref must differ");
   options.keep = arguments.keep == "inside"    ? CutKeep::kInside

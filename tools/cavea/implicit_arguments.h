@@ -1,5 +1,6 @@
 #pragma once
 #include <CLI/App.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,13 +10,19 @@ namespace cavea::program {
 
 /// What `cavea implicit` is told beyond `cavea remesh`, as it was typed.
 struct ImplicitArguments {
-  std::string values;  ///< file of the level set's values at the vertices
+  std::string values;       ///< file of the level set's values at the vertices; empty for a grid
+  std::string grid;         ///< name of the grid to read; empty: the only one
+  std::vector<double> box;  ///< low and high corner of the domain; empty: the grid's own
+  std::optional<double> isovalue;  ///< 0 if not given, of a fog volume 0.5
   std::string keep = "both";
   std::vector<std::string> reference_map;  ///< "REF:IN:OUT" or "REF:keep"
-  CutOptions cut;                          ///< without what the two above say
+  CutOptions cut;                          ///< without what keep, map and isovalue say
 };
 
 void add_cut_flags(CLI::App& command, ImplicitArguments& arguments);
+
+/// Refuses what does not go with a mesh, or with a grid. \throw OptionError naming the option
+void check_level_set(const ImplicitArguments& arguments, bool is_grid);
 
 /// The options for the library. \throw OptionError naming the entry of --reference-map
 CutOptions to_cut_options(const ImplicitArguments& arguments);

@@ -6,12 +6,27 @@
 #include "cavea/io/formats.h"
 
 namespace cavea::program {
+namespace {
+
+std::vector<std::int32_t> find_unused(const MeshData& data) {
+  std::vector<char> used(data.vertices.size(), 0);
+  for (const auto& tet : data.tets)
+    for (const std::int32_t v : tet) used[v] = 1;
+  std::vector<std::int32_t> unused;
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (!used[v]) unused.push_back(std::int32_t(v));
+  return unused;
+}
+
+}  // namespace
 
 LoadedMesh build_loaded(const MeshData& data, std::vector<std::string> warnings,
                         const BuildOptions& options) {
   BuildResult built = build(data, options);
   for (std::string& text : built.summary.warnings()) warnings.push_back(std::move(text));
-  return {std::move(built.mesh), built.summary, std::move(warnings)};
+  std::vector<std::int32_t> unused;
+  if (built.summary.unused_vertices != 0) unused = find_unused(data);
+  return {std::move(built.mesh), built.summary, std::move(unused), std::move(warnings)};
 }
 
 LoadedMesh load_mesh(const std::filesystem::path& file, const std::filesystem::path& sizes,

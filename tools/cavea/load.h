@@ -11,7 +11,8 @@ namespace cavea::program {
 struct LoadedMesh {
   TetMesh mesh;
   BuildSummary repairs;
-  std::vector<std::string> warnings;  ///< of the reader, then of build()
+  std::vector<std::int32_t> unused_vertices;  ///< those of the file that are of no tet, rising
+  std::vector<std::string> warnings;          ///< of the reader, then of build()
 };
 
 /// Builds the mesh and adds what build() put right to the warnings. \throw InputError

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "cavea/base/error.h"
+#include "command_grid.h"
 #include "command_info.h"
 #include "command_remesh.h"
 #include "exit_status.h"
@@ -42,8 +43,10 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   RemeshArguments remesh_arguments, implicit_arguments;
   InfoArguments info_arguments;
+  GridArguments grid_arguments;
   CLI::App* remesh = add_remesh_command(app, remesh_arguments);
   CLI::App* implicit = add_implicit_command(app, implicit_arguments);
+  CLI::App* grid = add_grid_command(app, grid_arguments);
   add_info_command(app, info_arguments);
   try {
     app.parse(argc, argv);
@@ -53,6 +56,7 @@ int run(int argc, char** argv) {
     return fail(kBadInput, fmt::format("{} (--help tells more)", e.what()).c_str());
   }
   if (implicit->parsed()) return run_remesh(implicit_arguments);
+  if (grid->parsed()) return run_grid(grid_arguments);
   return remesh->parsed() ? run_remesh(remesh_arguments) : run_info(info_arguments);
 }
 

@@ -69,7 +69,8 @@ Json cut_json(const CutReport& cut) {
           {"interface_triangles", cut.interface_triangles},
           {"removed_components", cut.removed_components},
           {"filled_cavities", cut.filled_cavities},
-          {"open", cut.open}};
+          {"open", cut.open},
+          {"sagitta", cut.sagitta}};
 }
 
 Json targets_json(const Report& report) {

@@ -67,6 +67,10 @@ fs::path OutputSet::stage(const fs::path& name) {
   return entries_.back().staging->path() / name.filename();
 }
 
+void OutputSet::add(const fs::path& name, const std::function<void(const fs::path&)>& write) {
+  write(stage(name));
+}
+
 void OutputSet::add_mesh(const fs::path& name, const MeshData& mesh) {
   write_mesh(stage(name), mesh);
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +29,9 @@ class StagingDirectory {
 /// The output files of a run: all appear under their names, or none.
 class OutputSet {
  public:
+  /// Lets `write` write a file out of sight, under the name that it is given.
+  void add(const std::filesystem::path& name,
+           const std::function<void(const std::filesystem::path&)>& write);
   /// Writes a mesh, and what its format puts beside it, out of sight. \throw OutputError
   void add_mesh(const std::filesystem::path& name, const MeshData& mesh);
   /// Writes a text out of sight. \throw OutputError
