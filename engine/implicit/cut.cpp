@@ -169,16 +169,19 @@ class Cut {
     return build(data).mesh;
   }
 
-  /// To first order: the value over the slope.
   void measure_sagitta() {
     for_each_interface([&](TetId t, int i) {
-      const auto face = face_vertices(cut_.tets[t], i);
-      for (int k = 0; k < 3; ++k) {
-        const Vec3 middle = (cut_.points[face[k]] + cut_.points[face[(k + 1) % 3]]) * 0.5;
-        const double off = std::abs(level_set_->value(middle)) / norm(level_set_->gradient(middle));
-        if (std::isfinite(off)) report_.sagitta = std::max(report_.sagitta, off);
-      }
+      const auto [a, b, c] = face_vertices(cut_.tets[t], i);
+      const auto &p = cut_.points[a], &q = cut_.points[b], &r = cut_.points[c];
+      for (const Vec3& at : {(p + q) / 2, (q + r) / 2, (r + p) / 2, (p + q + r) / 3})
+        report_.sagitta = std::max(report_.sagitta, height(at));
     });
+  }
+
+  /// The distance of the zero to first order: the value over the slope.
+  double height(const Vec3& p) const {
+    const double height = std::abs(level_set_->value(p)) / norm(level_set_->gradient(p));
+    return std::isfinite(height) ? height : 0;
   }
 
   void keep_side(MeshData& data) const {
@@ -228,11 +231,7 @@ CutResult cut_along(const TetMesh& mesh, std::span<const double> values,
 CutResult cut_along(const TetMesh& mesh, const LevelSet& level_set, const CutOptions& options) {
   std::vector<double> values(mesh.points.size());
   parallel_for(values.size(), [&](std::size_t v) { values[v] = level_set.value(mesh.points[v]); });
-  LevelSet shifted = with_gradient(level_set, box_diagonal(mesh));
-  if (options.isovalue != 0)
-    shifted.value = [&level_set, iso = options.isovalue](const Vec3& p) {
-      return level_set.value(p) - iso;
-    };
+  const LevelSet shifted = with_gradient(less(level_set, options.isovalue), box_diagonal(mesh));
   return cut(mesh, values, &shifted, options);
 }
 

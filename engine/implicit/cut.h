@@ -37,8 +37,11 @@ struct CutReport {
   std::int64_t interface_triangles = 0;
   std::int64_t removed_components = 0, filled_cavities = 0;
   bool open = false;  ///< the level set meets the boundary of the domain
-  /// Of a function: how far its zero is from the middles of the interface's edges, at most.
+  /// Of a function: how far its zero is from the interface's triangles, at most, to first order.
   double sagitta = 0;
+  /// The max_bulge with which remesh()'s smooth surface reaches from the triangles to the zero: the
+  /// control points of a cubic are a third farther off than itself.
+  double needed_bulge() const { return 4 * sagitta / 3; }
 };
 
 struct CutResult {
@@ -59,8 +62,7 @@ CutResult cut_along(const TetMesh& mesh, std::span<const double> values,
                     const CutOptions& options = {});
 
 /// The same for a function: cuts are at its own zeros (less the isovalue), and the surface has its
-/// gradient's normals. Where the mesh is coarse, remesh() is to be given a max_bulge of the
-/// report's sagitta, so that its smooth surface reaches from the cut's triangles to the zero.
+/// gradient's normals. Where the mesh is coarse, give remesh() the report's needed_bulge().
 CutResult cut_along(const TetMesh& mesh, const LevelSet& level_set, const CutOptions& options = {});
 CutResult cut_along(const TetMesh& mesh, const std::function<double(const Vec3&)>& function,
                     const CutOptions& options = {});

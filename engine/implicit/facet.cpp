@@ -42,6 +42,10 @@ Facet facet_of(const LevelSet& level_set, const std::array<Vec3, 4>& corners,
 
 }  // namespace
 
+bool is_crossed(const std::array<double, 4>& values) {
+  return std::ranges::count_if(values, [](double x) { return x < 0; }) % 4 != 0;
+}
+
 bool is_cut_off_by(double tolerance, const LevelSet& level_set, const std::array<Vec3, 4>& corners,
                    const std::array<double, 4>& values) {
   const Facet facet = facet_of(level_set, corners, values);

@@ -5,6 +5,9 @@
 
 namespace cavea {
 
+/// Whether a tet is cut: values at its corners are of both signs.
+bool is_crossed(const std::array<double, 4>& values);
+
 /// Whether the plane triangle or quadrangle in which a tet is cut is farther than the tolerance
 /// from the level set, by its value over its slope at the edges' middles and in the middle.
 /// \param corners of the tet \param values at them, of both signs \param level_set with a gradient

@@ -31,7 +31,9 @@ struct Bracket {
   double middle() const { return (low + high) / 2; }
   double false_position() const {
     const double at = low + (high - low) * (at_low / (at_low - at_high));
-    return at > low && at < high ? at : middle();
+    // A little inwards of an end that is as good as the zero, so that the bracket closes.
+    constexpr double kInwards = 0.5 * kZeroShare;
+    return std::clamp(at, low + kInwards, high - kInwards);
   }
 
   /// Illinois method: an end that stays for two steps pulls less.
@@ -79,6 +81,13 @@ std::vector<double> values_of_layer(const LevelSet& level_set, const Lattice& la
   return values;
 }
 
+OrientedPoint zero_near(const LevelSet& level_set, const Vec3& from, double reach) {
+  const Vec3 at =
+      from + way_to_zero(level_set, from, reach, [](const Vec3& direction) { return direction; });
+  const Vec3 normal = normalized(level_set.gradient(at));
+  return {at, is_finite(normal) ? normal : Vec3{}};
+}
+
 std::vector<OrientedPoint> zeros_of_layer(const LevelSet& level_set, const Lattice& lattice,
                                           std::size_t k) {
   const std::vector<double> below = values_of_layer(level_set, lattice, k),
@@ -90,9 +99,9 @@ std::vector<OrientedPoint> zeros_of_layer(const LevelSet& level_set, const Latti
       const std::size_t c = j * row + i;
       if (has_both_signs({below[c], below[c + 1], below[c + row], below[c + row + 1], above[c],
                           above[c + 1], above[c + row], above[c + row + 1]}))
-        zeros.push_back(nearest_zero(level_set,
-                                     lattice.at(double(i) + 0.5, double(j) + 0.5, double(k) + 0.5),
-                                     norm(lattice.cell)));
+        zeros.push_back(zero_near(level_set,
+                                  lattice.at(double(i) + 0.5, double(j) + 0.5, double(k) + 0.5),
+                                  norm(lattice.cell)));
     }
   return zeros;
 }
@@ -105,6 +114,12 @@ LevelSet with_gradient(const LevelSet& level_set, double diagonal) {
             const auto slope = [&](const Vec3& e) { return (f(p + e) - f(p - e)) / (2 * h); };
             return Vec3{slope({h, 0, 0}), slope({0, h, 0}), slope({0, 0, h})};
           }};
+}
+
+LevelSet less(const LevelSet& level_set, double isovalue) {
+  if (isovalue == 0) return level_set;
+  return {[f = level_set.value, isovalue](const Vec3& p) { return f(p) - isovalue; },
+          level_set.gradient};
 }
 
 double zero_on_edge(const LevelSet& level_set, const Vec3& a, const Vec3& b, double at_a,
@@ -121,16 +136,16 @@ double zero_on_edge(const LevelSet& level_set, const Vec3& a, const Vec3& b, dou
   return bracket.middle();
 }
 
-OrientedPoint nearest_zero(const LevelSet& level_set, const Vec3& from, double reach) {
+Vec3 way_to_zero(const LevelSet& level_set, const Vec3& from, double reach,
+                 const std::function<Vec3(const Vec3&)>& allowed) {
   Vec3 at = from;
   for (int k = 0; k < kNewtonSteps; ++k) {
-    const Vec3 g = level_set.gradient(at);
+    const Vec3 g = allowed(level_set.gradient(at));
     const Vec3 next = at - g * (level_set.value(at) / norm2(g));
     if (!is_finite(next) || distance(next, from) > reach) break;
     at = next;
   }
-  const Vec3 normal = normalized(level_set.gradient(at));
-  return {at, is_finite(normal) ? normal : Vec3{}};
+  return at - from;
 }
 
 std::vector<OrientedPoint> zeros_on_lattice(const LevelSet& level_set, const Box& box,

@@ -19,14 +19,18 @@ struct LevelSet {
 /// that diagonal, one of its values.
 LevelSet with_gradient(const LevelSet& level_set, double diagonal);
 
+/// The level set of another isovalue, as that of zero.
+LevelSet less(const LevelSet& level_set, double isovalue);
+
 /// The share of edge (a, b) at which the function is zero: safe for any function that changes its
 /// sign. \param at_a, at_b its values at the ends, of which one is negative, the other not
 double zero_on_edge(const LevelSet& level_set, const Vec3& a, const Vec3& b, double at_a,
                     double at_b);
 
-/// The point of the level set that Newton steps lead to, and its normal; none farther than `reach`.
-/// \param level_set with a gradient \returns the point itself where they lead nowhere
-OrientedPoint nearest_zero(const LevelSet& level_set, const Vec3& from, double reach);
+/// The way to a zero by Newton steps; nowhere farther than `reach`: up to there where they lead on.
+/// \param level_set with a gradient \param allowed the part of a direction in which to go
+Vec3 way_to_zero(const LevelSet& level_set, const Vec3& from, double reach,
+                 const std::function<Vec3(const Vec3&)>& allowed);
 
 /// A zero for each cell of a lattice in whose corners the function has both signs: what is smaller
 /// than `step`, or nearer to another sheet, may be missed. \param level_set with a gradient

@@ -100,8 +100,7 @@ class Refinement {
     if (distance(corners[e[0]], corners[e[1]]) <= options_.shortest) return false;
     std::array<double, 4> values;
     for (int k = 0; k < 4; ++k) values[k] = values_[mesh_.tets[t][k]];
-    const auto below = std::ranges::count_if(values, [](double x) { return x < 0; });
-    if (below % 4 != 0 && is_cut_off_by(options_.tolerance, level_set_, corners, values))
+    if (is_crossed(values) && is_cut_off_by(options_.tolerance, level_set_, corners, values))
       return true;
     return std::ranges::any_of(zeros, [&](std::uint32_t z) {
       return is_beyond(zeros_[z], kTangentReach * options_.tolerance, corners, values);

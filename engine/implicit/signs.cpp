@@ -134,11 +134,15 @@ bool take_off_pinched(const TetMesh& mesh, const Buckets& balls, std::span<const
   return std::ranges::find(pinched, 1) != pinched.end();
 }
 
-}  // namespace
-
-double cut_share(double first, double second) {
-  return std::clamp(first / (first - second), kLeastCutShare, 1 - kLeastCutShare);
+/// As if no vertex pinched the interface.
+std::vector<std::int8_t> near_signs(const TetMesh& mesh, std::span<const double> values) {
+  std::vector<std::int8_t> signs(values.size());
+  parallel_for(values.size(), [&](std::size_t v) { signs[v] = sign_off_interface(values[v]); });
+  put_on_interface(mesh, values, signs);
+  return signs;
 }
+
+}  // namespace
 
 int side_of_tet(const std::array<VertexId, 4>& tet, std::span<const std::int8_t> signs,
                 std::span<const double> values) {
@@ -150,14 +154,20 @@ int side_of_tet(const std::array<VertexId, 4>& tet, std::span<const std::int8_t>
 }
 
 std::vector<std::int8_t> cut_signs(const TetMesh& mesh, std::span<const double> values) {
-  std::vector<std::int8_t> signs(values.size());
-  parallel_for(values.size(), [&](std::size_t v) { signs[v] = sign_off_interface(values[v]); });
-  put_on_interface(mesh, values, signs);
+  std::vector<std::int8_t> signs = near_signs(mesh, values);
   const Buckets balls = tets_at_vertices(mesh);
   // Ends: each pass takes vertices off, and none is put on again.
   while (take_off_pinched(mesh, balls, values, signs)) {
   }
   return signs;
+}
+
+std::vector<VertexId> pinching_vertices(const TetMesh& mesh, std::span<const double> values) {
+  const std::vector<std::int8_t> near = near_signs(mesh, values), signs = cut_signs(mesh, values);
+  std::vector<VertexId> pinching;
+  for (std::size_t v = 0; v < signs.size(); ++v)
+    if (near[v] == 0 && signs[v] != 0) pinching.push_back(VertexId(v));
+  return pinching;
 }
 
 }  // namespace cavea

@@ -13,15 +13,14 @@ namespace cavea {
 /// than the P1 interpolation is off, and no tet of the cut mesh is flatter than by that share.
 inline constexpr double kLeastCutShare = 0.01;
 
-/// Where the zero of a function that is linear along an edge lies, from its first end, within
-/// [kLeastCutShare, 1 - kLeastCutShare]. \pre one value is negative, the other is not
-double cut_share(double first, double second);
-
 /// By vertex: -1 inside (negative value), 1 outside, 0 on the interface. A vertex is on the
 /// interface where the level set passes nearer than kLeastCutShare of an edge, but not where the
 /// inside or the outside at the vertex would then fall into pieces that no face joins.
 /// \param values by vertex, finite
 std::vector<std::int8_t> cut_signs(const TetMesh& mesh, std::span<const double> values);
+
+/// The vertices that the level set passes so near to, but that would pinch it if they were on it.
+std::vector<VertexId> pinching_vertices(const TetMesh& mesh, std::span<const double> values);
 
 /// The side of a tet without vertices of both signs: of its vertices off the interface, or, where
 /// there are none, of the sum of its values.

@@ -70,6 +70,10 @@ struct Options {
   double min_quality = 0.1;  ///< target: worst quality
   double min_conform = 90;   ///< target: percent of lengths within [1/sqrt2, sqrt2]
 
+  /// Moves vertices of a result before it is measured: onto a function that the surface stands for,
+  /// say. No tet may become flat, no vertex of the exterior boundary leave it by more than hausd.
+  std::function<void(TetMesh&)> finish;
+
   int threads = 0;                                ///< 0: all cores
   std::function<void(const Progress&)> progress;  ///< called from the calling thread only
   const std::atomic<bool>* cancel = nullptr;      ///< when true, remesh() throws Cancelled

@@ -69,9 +69,11 @@ class Run {
     for (const Phase& phase : mends_ ? mending_recipe(r_) : recipe(r_))
       timed(phase.name, [&] { run_phase(phase); });
     mend_poor();
+    finish();
     timed("measurement", [&] { distance_ = measure_distance(); });
     for (int k = 0; k < kRepairs && may_repair() && distance_.worse().worst > kMeasuredShare; ++k) {
       timed("repair", [&] { repair(); });
+      finish();
       timed("measurement", [&] { distance_ = measure_distance(); });
     }
     timed("statistics", [&] { measure(); });
@@ -257,6 +259,11 @@ class Run {
     constexpr double kNear = 0.5;
     return measure_surface_distance(mesh_, *surface_, default_sample_step(mesh_, *surface_),
                                     kMeasuredShare, kNear);
+  }
+
+  void finish() {
+    if (options_.finish && !r_.freeze.move && !r_.freeze.surface)
+      timed("finish", [&] { options_.finish(mesh_); });
   }
 
   /// Makes the surface finer where it is too far from the model: what the curvature did not tell.

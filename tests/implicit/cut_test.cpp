@@ -1,6 +1,5 @@
 #include "cavea/implicit/cut.h"
 
-#include <map>
 #include <numbers>
 
 #include "cavea/base/error.h"
@@ -8,52 +7,17 @@
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/statistics.h"
 #include "cavea/remesh/remesh.h"
+#include "level_sets.h"
 #include "support/expect.h"
 #include "support/meshes.h"
 
 namespace cavea::test {
 namespace {
 
-using Function = std::function<double(const Vec3&)>;
-
 std::vector<double> values_of(const TetMesh& mesh, const Function& f) {
   std::vector<double> values;
   for (const Vec3& p : mesh.points) values.push_back(f(p));
   return values;
-}
-
-/// How many triangles of the interface are at each of its edges that is not on the cube's surface.
-void expect_closed_manifold(const TetMesh& mesh) {
-  const auto on_same_side = [](const Vec3& a, const Vec3& b) {
-    for (const double side : {0.0, 1.0})
-      if ((a.x == side && b.x == side) || (a.y == side && b.y == side) ||
-          (a.z == side && b.z == side))
-        return true;
-    return false;
-  };
-  std::map<std::pair<VertexId, VertexId>, int> uses;
-  for (const Triangle& s : mesh.triangles)
-    if (s.ref == 10)
-      for (int k = 0; k < 3; ++k) ++uses[std::minmax(s.v[k], s.v[(k + 1) % 3])];
-  EXPECT_FALSE(uses.empty());
-  for (const auto& [edge, count] : uses)
-    if (!on_same_side(mesh.points[edge.first], mesh.points[edge.second])) {
-      EXPECT_EQ(count, 2);
-    }
-}
-
-/// A sum of waves, with a zero at many vertices where `rounded`: snapping is then at its hardest.
-Function random_waves(Random& random, bool rounded) {
-  std::vector<std::array<double, 5>> waves(4);
-  for (auto& w : waves)
-    w = {random.between(-8, 8), random.between(-8, 8), random.between(-8, 8),
-         random.between(0, 2 * std::numbers::pi), random.between(0.3, 1)};
-  return [=](const Vec3& p) {
-    double sum = 0;
-    for (const auto& [x, y, z, phase, height] : waves)
-      sum += height * std::sin(x * p.x + y * p.y + z * p.z + phase);
-    return rounded ? std::round(sum * 2) / 2 : sum;
-  };
 }
 
 /// Volume where the P1 function is negative, by the known formula of a tet cut by a plane.
@@ -88,7 +52,11 @@ TEST(Cut, OfRandomWavesIsConformingClosedAndOfTheirVolume) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random{std::uint64_t(seed)};
     const bool rounded = seed % 4 == 0;
-    const std::vector<double> values = values_of(cube, random_waves(random, rounded));
+    // Rounded, they have a zero at many vertices: snapping is then at its hardest.
+    const std::vector<double> values =
+        values_of(cube, [waves = Waves(random), rounded](const Vec3& p) {
+          return rounded ? std::round(waves(p) * 2) / 2 : waves(p);
+        });
     if (std::ranges::min(values) >= 0 || std::ranges::max(values) <= 0) continue;
     const CutResult cut = cut_along(cube, values);
     expect_sound(cut.mesh);
@@ -106,18 +74,18 @@ TEST(Cut, OfRandomWavesIsConformingClosedAndOfTheirVolume) {
 TEST(Cut, IsTheSameAtAnyNumberOfThreads) {
   const TetMesh cube = build(kuhn_cube(8)).mesh;
   Random random(7);
-  const std::vector<double> values = values_of(cube, random_waves(random, false));
+  const std::vector<double> values = values_of(cube, Waves(random));
   TetMesh one, three;
   run_in_arena(1, [&] { one = cut_along(cube, values).mesh; });
   run_in_arena(3, [&] { three = cut_along(cube, values).mesh; });
   expect_same(one, three);
 }
 
-double sphere(const Vec3& p) { return norm(p - Vec3{0.5, 0.5, 0.5}) - 0.3; }
-
 TEST(Cut, AlongAFunctionIsOnItsZeroAndStaysThereWhenRemeshed) {
   const TetMesh cube = build(kuhn_cube(10)).mesh;
-  TetMesh mesh = cut_along(cube, sphere).mesh;
+  CutResult cut = cut_along(cube, sphere);
+  TetMesh& mesh = cut.mesh;
+  EXPECT_NEAR(cut.report.sagitta, 0.01 * 3 / 8 / 0.3, 0.005);  // of edges of 0.17 at most
   const auto farthest = [&] {
     double most = 0;
     for (const Triangle& s : mesh.triangles)
@@ -129,7 +97,7 @@ TEST(Cut, AlongAFunctionIsOnItsZeroAndStaysThereWhenRemeshed) {
   Options options;
   options.hausd = 0.002;
   options.hmax = 0.1;
-  options.max_bulge = 0.02;  // of the cut's edges, which are long, from the sphere
+  options.max_bulge = cut.report.needed_bulge();
   remesh(mesh, {}, options);
   expect_sound(mesh);
   EXPECT_LT(farthest(), 0.002);

@@ -5,6 +5,7 @@
 #include "cavea/base/error.h"
 #include "cavea/base/memory.h"
 #include "cavea/base/timer.h"
+#include "cavea/implicit/project.h"
 #include "cavea/io/formats.h"
 #include "cavea/remesh/remesh.h"
 #include "exit_status.h"
@@ -37,6 +38,13 @@ void check_names(const RemeshArguments& arguments) {
     inputs.push_back({"the file of --params", arguments.parameters});
   if (!arguments.surface.empty()) inputs.push_back({"the file of --surface", arguments.surface});
   check_outputs(inputs, outputs);
+}
+
+/// The vertices of the interface are put onto the level set, if it is known everywhere.
+void finish_on(const LevelSet& level_set, const RemeshArguments& arguments, Options& options) {
+  options.finish = [&level_set, ref = arguments.implicit->cut.interface_ref](TetMesh& mesh) {
+    project_onto(mesh, level_set, ref);
+  };
 }
 
 /// Runs the library with a progress line, which is gone when this returns.
@@ -75,8 +83,12 @@ RunReport remesh_file(const RemeshArguments& arguments, Options options,
   const double read_seconds = timer.seconds();
   options.cancel = interrupt.flag();
   options.directions = true;
+  if (prepared.level_set) finish_on(*prepared.level_set, arguments, options);
   RunReport run{arguments, run_library(loaded.mesh, prepared.field, options, arguments.quiet),
                 prepared.cut, read_seconds};
+  if (prepared.level_set)
+    run.interface_distance =
+        distance_from(loaded.mesh, *prepared.level_set, arguments.implicit->cut.interface_ref);
   std::vector<std::string>& warnings = run.report.warnings;
   warnings.insert(warnings.begin(), loaded.warnings.begin(), loaded.warnings.end());
 

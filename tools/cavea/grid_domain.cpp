@@ -6,8 +6,7 @@
 #include <memory>
 
 #include "cavea/base/error.h"
-#include "cavea/implicit/box_mesh.h"
-#include "cavea/implicit/refine.h"
+#include "cavea/implicit/mesh_level_set.h"
 #include "cavea/vdb/grid.h"
 
 namespace cavea::program {
@@ -45,34 +44,43 @@ Box domain(const ImplicitArguments& implicit, const Grid& grid) {
   return box;
 }
 
-RefineOptions refine_options(const Options& options, const Box& box, double voxel) {
-  // As in remesh(). Chords of half the tolerance are about as long as it wants its edges.
-  constexpr double kDefault = 0.001, kChordShare = 0.5;
-  const double diagonal = distance(box.low, box.high);
-  return {kChordShare * options.hausd.value_or(kDefault * diagonal),
-          std::max(voxel, options.hmin.value_or(0))};
+/// Chords of half the tolerance are about as long as remesh() wants its edges.
+constexpr double kChordShare = 0.5;
+
+/// What remesh() would set, but for the whole box, whatever is kept of it.
+void set_hausd(const Box& box, Options& options) {
+  constexpr double kHausd = 0.001;
+  if (!options.hausd) options.hausd = kHausd * distance(box.low, box.high);
+}
+
+/// What remesh() would set, but more where voxels do not allow chords as short as that: the smooth
+/// surface is to reach from the cut's triangles to the level set.
+void set_bulge(const CutReport& cut, Options& options) {
+  constexpr double kBulges = 3;
+  if (!options.max_bulge && !options.faceted)
+    options.max_bulge = std::max(kBulges * *options.hausd, cut.needed_bulge());
 }
 
 }  // namespace
 
 bool is_grid(const std::filesystem::path& file) { return file.extension() == ".vdb"; }
 
-CutReport cut_by_grid(const RemeshArguments& arguments, const Options& options,
-                      LoadedMesh& loaded) {
+GridCut cut_by_grid(const RemeshArguments& arguments, Options& options) {
   const ImplicitArguments& implicit = *arguments.implicit;
   const auto grid =
       std::make_shared<const Grid>(arguments.input, GridChoice{implicit.grid, implicit.isovalue});
   const LevelSet level_set{[grid](const Vec3& p) { return grid->value(p); },
                            [grid](const Vec3& p) { return grid->gradient(p); }};
   const Box box = domain(implicit, *grid);
-  TetMesh mesh = build(box_mesh(box)).mesh;
-  refine_near(mesh, level_set, grid->zeros(), refine_options(options, box, grid->voxel()));
+  set_hausd(box, options);
   CutOptions cut_options = to_cut_options(implicit);
   cut_options.isovalue = 0;  // the grid's values are less its isovalue
   try {
-    CutResult cut = cut_along(mesh, level_set, cut_options);
-    loaded.mesh = std::move(cut.mesh);
-    return cut.report;
+    const RefineOptions refine{kChordShare * *options.hausd,
+                               std::max(grid->voxel(), options.hmin.value_or(0))};
+    GridCut cut{mesh_level_set(box, level_set, grid->zeros(), refine, cut_options), level_set};
+    set_bulge(cut.result.report, options);
+    return cut;
   } catch (const InputError& e) {
     throw InputError(arguments.input + ": " + e.what());
   }

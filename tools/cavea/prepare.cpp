@@ -45,15 +45,21 @@ CutReport cut_by_values(const ImplicitArguments& implicit, LoadedMesh& loaded) {
 
 }  // namespace
 
-Prepared prepare(const RemeshArguments& arguments, const Options& options) {
+Prepared prepare(const RemeshArguments& arguments, Options& options) {
   Prepared out;
   const bool has_grid = arguments.implicit && is_grid(arguments.input);
   if (!has_grid) out.loaded = load_mesh(arguments.input, arguments.sizes, arguments.build);
   out.field = field_of(arguments, out.loaded.mesh);
   if (!arguments.implicit) return out;
   run_in_arena(options.threads > 0 ? options.threads : default_threads(), [&] {
-    out.cut = has_grid ? cut_by_grid(arguments, options, out.loaded)
-                       : cut_by_values(*arguments.implicit, out.loaded);
+    if (has_grid) {
+      GridCut cut = cut_by_grid(arguments, options);
+      out.loaded.mesh = std::move(cut.result.mesh);
+      out.cut = cut.result.report;
+      out.level_set = std::move(cut.level_set);
+    } else {
+      out.cut = cut_by_values(*arguments.implicit, out.loaded);
+    }
   });
   return out;
 }

@@ -109,6 +109,7 @@ Json to_json(const RunReport& run) {
               {"targets_met", report.targets_met()},
               {"warnings", report.warnings}};
   if (run.cut) out["level_set"] = cut_json(*run.cut);
+  if (run.interface_distance) out["level_set"]["distance"] = *run.interface_distance;
   return out;
 }
 

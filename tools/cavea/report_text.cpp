@@ -88,11 +88,15 @@ std::string verdicts_text(const Report& report) {
 
 namespace {
 
-std::string cut_text(const CutReport& cut) {
-  return fmt::format("level set: {} triangles cut{}; {} components removed, {} cavities filled\n",
-                     cut.interface_triangles,
-                     cut.open ? ", open at the boundary of the domain" : "", cut.removed_components,
-                     cut.filled_cavities);
+std::string cut_text(const RunReport& run) {
+  const CutReport& cut = *run.cut;
+  std::string text =
+      fmt::format("level set: {} triangles cut{}; {} components removed, {} cavities filled",
+                  cut.interface_triangles, cut.open ? ", open at the boundary of the domain" : "",
+                  cut.removed_components, cut.filled_cavities);
+  if (run.interface_distance)
+    text += fmt::format("; after remeshing {:.4g} from the interface", *run.interface_distance);
+  return text + "\n";
 }
 
 }  // namespace
@@ -109,7 +113,7 @@ std::string to_text(const RunReport& run, bool verbose) {
     blocks.push_back(verdicts_text(report));
     if (!report.stubborn.empty()) blocks.push_back(stubborn_text(report));
   }
-  if (run.cut) blocks.push_back(cut_text(*run.cut));
+  if (run.cut) blocks.push_back(cut_text(run));
   blocks.push_back(surface_text(report) + cost_text(run));
   blocks.push_back(targets_text(report));
   return fmt::format("{}", fmt::join(blocks, "\n"));

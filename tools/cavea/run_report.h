@@ -15,6 +15,7 @@ struct RunReport {
   Report report;
   std::optional<CutReport> cut;  ///< of `cavea implicit`
   double read_seconds = 0, write_seconds = 0;
+  std::optional<double> interface_distance = {};  ///< from a grid's level set, after remeshing
 };
 
 /// The report as JSON; docs/report.md describes it.
