@@ -15,10 +15,8 @@ class Choice {
   Choice(const TetMesh& mesh, std::vector<char> wanted)
       : mesh_(mesh),
         wanted_(std::move(wanted)),
-        longest_(mesh.tets.size()),
+        in_the_way_(mesh.tets.size(), 0),
         first_(mesh.tets.size(), 0) {
-    parallel_for(longest_.size(),
-                 [&](std::size_t t) { longest_[t] = std::int8_t(longest_edge(mesh_, TetId(t))); });
     bisection_.of_tet.assign(mesh.tets.size(), 0);
   }
 
@@ -39,32 +37,32 @@ class Choice {
   }
 
   std::pair<VertexId, VertexId> edge_of(TetId t) const {
-    const auto& e = kEdgeVertices[longest_[t]];
+    const auto& e = kEdgeVertices[longest_edge(mesh_, t)];
     return std::minmax(mesh_.tets[t][e[0]], mesh_.tets[t][e[1]]);
   }
 
   /// \returns the tets that are in the way of those asked, and were not wanted before.
   std::vector<TetId> ask(const std::vector<TetId>& asked) {
-    std::vector<char> in_the_way(mesh_.tets.size(), 0);
     parallel_ranges(asked.size(), 256, [&](std::size_t begin, std::size_t end) {
       Shell shell;
-      for (std::size_t i = begin; i < end; ++i) ask(asked[i], shell, in_the_way);
+      for (std::size_t i = begin; i < end; ++i) ask(asked[i], shell);
     });
     std::vector<TetId> next;
-    for (const TetId t : ids_of(in_the_way))
+    for (const TetId t : ids_of(in_the_way_))
       if (!std::exchange(wanted_[t], 1)) next.push_back(t);
     return next;
   }
 
-  void ask(TetId t, Shell& shell, std::vector<char>& in_the_way) {
-    const auto& e = kEdgeVertices[longest_[t]];
+  void ask(TetId t, Shell& shell) {
+    const auto& e = kEdgeVertices[longest_edge(mesh_, t)];
     gather_shell(mesh_, t, e[0], e[1], shell);
     if (is_required(shell)) return;
+    const auto edge = edge_of(t);
     bool longest_of_all = true;
     for (const TetId other : shell.tets) {
-      if (edge_of(other) == edge_of(t)) continue;
+      if (edge_of(other) == edge) continue;
       longest_of_all = false;
-      atomic_or(in_the_way[other], char{1});
+      atomic_or(in_the_way_[other], char{1});
     }
     if (!longest_of_all) return;
     for (const TetId other : shell.tets) atomic_or(bisection_.of_tet[other], char{1});
@@ -87,8 +85,8 @@ class Choice {
 
   const TetMesh& mesh_;
   std::vector<char> wanted_;
-  std::vector<std::int8_t> longest_;
-  std::vector<char> first_;  ///< by tet: the first one at an edge of the set
+  std::vector<char> in_the_way_;  ///< of another tet's bisection
+  std::vector<char> first_;       ///< by tet: the first one at an edge of the set
   Bisection bisection_;
 };
 

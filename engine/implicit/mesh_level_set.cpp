@@ -15,7 +15,7 @@ CutResult mesh_level_set(const Box& box, const LevelSet& level_set,
   // Vertices that are put onto the level set make chords longer.
   constexpr double kClearing = 2;
   // Those that are moved away from it may leave it too coarse.
-  constexpr int kMostClearings = 4;
+  constexpr int kMostClearings = 2;
   TetMesh mesh = build(box_mesh(box)).mesh;
   const Vec3 side = box.high - box.low;
   const LevelSet shifted = with_gradient(less(level_set, cut.isovalue), norm(side));
