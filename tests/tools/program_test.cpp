@@ -99,6 +99,28 @@ TEST_F(RunTest, WritesNormalsAndTangents) {
   EXPECT_EQ(told, surface);
 }
 
+TEST_F(RunTest, TakesALevelSetOfAMeshWithUnusedVertices) {
+  MeshData data = kuhn_cube(4);
+  std::string values = std::to_string(2 * data.vertices.size()) + " 1 1\n";
+  MeshData spread;  // every second vertex is of no tet
+  for (const Vec3& p : data.vertices) {
+    spread.vertices.insert(spread.vertices.end(), {p, Vec3{9, 9, 9}});
+    values += std::to_string(p.z - 0.3) + " 5\n";
+  }
+  for (auto tet : data.tets) {
+    for (auto& v : tet) v *= 2;
+    spread.tets.push_back(tet);
+  }
+  write_mesh(file("in.mesh"), spread);
+  write_text(file("phi.sol"),
+             "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n" + values + "End\n");
+  const Outcome outcome =
+      cavea({"implicit", "in.mesh", "--sol", "phi.sol", "-o", "out.meshb", "--report", "r.json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const Json& ref : read_json("r.json")["after"]["counts"]["tet_references"])
+    EXPECT_NEAR(ref["volume"].get<double>(), ref["reference"] == 3 ? 0.3 : 0.7, 1e-6);
+}
+
 TEST_F(RunTest, RidsTheInputOfFlatTets) {
   write_mesh(file("in.meshb"), cube_with_flat_tets(7, false));
   const Outcome outcome =

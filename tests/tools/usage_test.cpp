@@ -65,9 +65,10 @@ TEST_F(UsageTest, RefusesLevelSetsThatAreNone) {
     expect_refused(words, named);
   };
   const std::string good = "8 1 1 -1 1 1 1 1 1 1 1";
-  expect_level_set_refused("8 1 1 2 1 1 1 1 1 1 1", "from 1 to 2");
+  expect_level_set_refused("8 1 1 2 1 1 1 1 1 1 1",
+                           "phi.sol: the level set is nowhere 0: its values are from 1 to 2");
   expect_level_set_refused(good, "nowhere 7", {"--iso", "7"});
-  expect_level_set_refused("7 1 1 -1 1 1 1 1 1 1", "7");
+  expect_level_set_refused("7 1 1 -1 1 1 1 1 1 1", "phi.sol: line 3: SolAtVertices holds 7");
   expect_level_set_refused("8 1 1 nan 1 1 1 1 1 1 1", "phi.sol");
   expect_level_set_refused(good, "--reference-map", {"--reference-map", "1:5"});
   expect_level_set_refused(good, "--inside-ref", {"--inside-ref", "2"});
