@@ -39,6 +39,11 @@ MeshEditor::MeshEditor(TetMesh& mesh) : mesh_(mesh), table_(kFirstTableSize) {
     if (!mesh.vertex_alive(VertexId(v))) free_vertices_.push_back(VertexId(v));
 }
 
+MeshEditor::MeshEditor(TetMesh& mesh, const Holes& holes) : mesh_(mesh), table_(kFirstTableSize) {
+  for (std::int32_t k = holes.tets; k-- > 0;) free_tets_.push_back(holes.first_tet + k);
+  for (std::int32_t k = holes.vertices; k-- > 0;) free_vertices_.push_back(holes.first_vertex + k);
+}
+
 VertexId MeshEditor::next_vertex() const {
   return free_vertices_.empty() ? VertexId(mesh_.points.size()) : free_vertices_.back();
 }

@@ -13,6 +13,23 @@ class MeshEditor {
  public:
   explicit MeshEditor(TetMesh& mesh);
 
+  /// Ids of holes that an editor is to use.
+  struct Holes {
+    TetId first_tet = 0;
+    std::int32_t tets = 0;
+    VertexId first_vertex = 0;
+    std::int32_t vertices = 0;
+  };
+  /// An editor of those holes only, for cavities inside the volume. Several may work on one mesh at
+  /// the same time, if the vertices of their cavities are apart, and as long as they fit().
+  MeshEditor(TetMesh& mesh, const Holes& holes);
+
+  /// Whether the holes suffice for a cavity.
+  bool fits(const Cavity& cavity) const {
+    return cavity.tets.size() <= cavity.removed_tets.size() + free_tets_.size() &&
+           (!cavity.inserts_vertex || !free_vertices_.empty());
+  }
+
   TetMesh& mesh() { return mesh_; }
   const TetMesh& mesh() const { return mesh_; }
 

@@ -34,14 +34,15 @@ enum class Operator : std::uint8_t {
   kFaceSwap,
   kRelocate,
   kEdgeStar,
-  kReconnect
+  kReconnect,
+  kVertexInsert
 };
-inline constexpr int kOperators = 7;
+inline constexpr int kOperators = 8;
 
 inline const char* name(Operator o) {
   constexpr std::array<const char*, kOperators> kNames = {
       "edge_split", "edge_collapse", "edge_swap", "face_swap",
-      "relocate",   "edge_star",     "reconnect"};
+      "relocate",   "edge_star",     "reconnect",  "vertex_insert"};
   return kNames[static_cast<std::size_t>(o)];
 }
 

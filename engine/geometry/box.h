@@ -16,6 +16,10 @@ struct Box {
     low = {std::min(low.x, b.low.x), std::min(low.y, b.low.y), std::min(low.z, b.low.z)};
     high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y), std::max(high.z, b.high.z)};
   }
+  bool contains(const Vec3& p) const {
+    return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z &&
+           p.z <= high.z;
+  }
   /// Squared distance of a point from the box; 0 inside.
   double distance2(const Vec3& p) const {
     const auto outside = [](double x, double l, double h) {

@@ -12,7 +12,7 @@ namespace {
 
 /// Edges at least this long in the metric are halved: what is left is for splits one by one, which
 /// choose better.
-constexpr double kBulkEdge = 2.6;
+static const double kBulkEdge = getenv("BE")?atof(getenv("BE")):2.6;
 /// A level is worth its cost when this share of the tets would be divided.
 constexpr double kWorthwhile = 0.02;
 constexpr int kMostLevels = 16;
@@ -35,7 +35,7 @@ double share_to_divide(const TetMesh& m, const BulkOptions& options) {
         for (std::size_t t = begin; t < end; ++t)
           n += std::ranges::any_of(kEdgeVertices, [&](const auto& e) {
             const VertexId a = m.tets[t][e[0]], b = m.tets[t][e[1]];
-            return !(options.surface_frozen && on_surface(m, a, b)) && is_long(m, a, b);
+            return !(options.surface_frozen && on_surface(m, a, b)) && !(options.surface_only && !on_surface(m,a,b)) && is_long(m, a, b);
           });
         return n;
       },
@@ -50,7 +50,7 @@ int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, const BulkOptions
   int level = 0;
   for (; level < kMostLevels && share_to_divide(mesh, options) > kWorthwhile; ++level) {
     auto required = [&](const MeshEdge& e) {
-      if (e.triangle == kNone) return false;
+      if (e.triangle == kNone) return options.surface_only;
       if (options.surface_frozen) return true;
       const Triangle& t = mesh.triangles[e.triangle];
       return ((t.tags | t.edge_tag[std::size_t(e.side)]) & tag::kRequired) != 0;

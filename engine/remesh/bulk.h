@@ -7,6 +7,7 @@
 namespace cavea {
 
 struct BulkOptions {
+  bool surface_only = false;
   bool surface_frozen = false;  ///< edges of the surface are not halved
 };
 

@@ -1,0 +1,79 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "cavea/geometry/vec3.h"
+
+namespace cavea {
+
+/// Body-centred cubic lattices: the corners and centres of cubes of `cell * 2^level` at the origin.
+/// Each is part of the next finer one. Their Delaunay tets are all alike, with edges of 1 and
+/// sqrt(3)/2 cells and a quality of 0.93, and no five points are on a common sphere with none
+/// inside, so that they are the only ones.
+struct Lattice {
+  double cell = 0;
+
+  double cell_at(int level) const { return std::ldexp(cell, level); }
+
+  /// Calls f(point) for the points of a level inside a tet of positive volume; but for the
+  /// `coarsest`, without those of the next coarser level.
+  template <class F>
+  void for_each_inside(const std::array<Vec3, 4>& tet, int level, int coarsest, F&& f) const;
+};
+
+namespace lattice_detail {
+
+/// The multiples of `unit` between the smallest and largest of four coordinates.
+inline std::pair<std::int64_t, std::int64_t> multiples(double a, double b, double c, double d,
+                                                       double unit) {
+  return {std::int64_t(std::ceil(std::min({a, b, c, d}) / unit)),
+          std::int64_t(std::floor(std::max({a, b, c, d}) / unit))};
+}
+
+/// The half spaces of a tet's faces: n . p <= d inside.
+struct HalfSpaces {
+  std::array<Vec3, 4> n;
+  std::array<double, 4> d;
+
+  explicit HalfSpaces(const std::array<Vec3, 4>& x) {
+    constexpr std::size_t kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    for (std::size_t f = 0; f < 4; ++f) {
+      const Vec3& o = x[kFaces[f][0]];
+      n[f] = cross(x[kFaces[f][1]] - o, x[kFaces[f][2]] - o);
+      d[f] = dot(n[f], o);
+    }
+  }
+  bool contain(const Vec3& p) const {
+    return dot(n[0], p) <= d[0] && dot(n[1], p) <= d[1] && dot(n[2], p) <= d[2] &&
+           dot(n[3], p) <= d[3];
+  }
+};
+
+}  // namespace lattice_detail
+
+template <class F>
+void Lattice::for_each_inside(const std::array<Vec3, 4>& tet, int level, int coarsest,
+                              F&& f) const {
+  // In units of half a cell a point has three even or three odd coordinates; it is one of the
+  // coarser level if these are even and alike modulo 4.
+  const double unit = cell_at(level) / 2;
+  const auto& [a, b, c, d] = tet;
+  const auto [x0, x1] = lattice_detail::multiples(a.x, b.x, c.x, d.x, unit);
+  const auto [y0, y1] = lattice_detail::multiples(a.y, b.y, c.y, d.y, unit);
+  const auto [z0, z1] = lattice_detail::multiples(a.z, b.z, c.z, d.z, unit);
+  if (x0 > x1 || y0 > y1 || z0 > z1) return;
+  const lattice_detail::HalfSpaces inside(tet);
+  for (std::int64_t i = x0; i <= x1; ++i)
+    for (std::int64_t j = y0 + ((y0 ^ i) & 1); j <= y1; j += 2)
+      for (std::int64_t k = z0 + ((z0 ^ i) & 1); k <= z1; k += 2) {
+        const bool coarser = !(i & 1) && !((i ^ j) & 3) && !((i ^ k) & 3);
+        if (coarser && level != coarsest) continue;
+        const Vec3 p{double(i) * unit, double(j) * unit, double(k) * unit};
+        if (inside.contain(p)) f(p);
+      }
+}
+
+}  // namespace cavea

@@ -1,0 +1,197 @@
+#include "cavea/part/seed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "cavea/base/parallel.h"
+#include "cavea/cavity/mesh_editor.h"
+#include "cavea/operator/vertex_insert.h"
+
+namespace cavea {
+namespace {
+
+/// Points are wanted where their lattice's cells are at least this many wanted sizes.
+constexpr double kFinestCell = 0.75;
+/// As in VertexInsert: nothing comes nearer to a vertex.
+constexpr double kNearest = 0.65;
+
+/// Edge of a block and what it may reach beyond, in cells. Blocks of one colour are a block apart,
+/// so that reaches are disjoint; a cavity between points of the coarser level reaches 2.3 cells.
+constexpr double kBlock = 8;
+constexpr double kReach = 3.9;
+constexpr int kColors = 8;
+
+/// Tets that an insertion adds are 7 on the average in a lattice.
+constexpr std::int32_t kTetsPerVertex = 8, kSpareTets = 64;
+
+struct Seed {
+  Vec3 point;
+  float size;
+  VertexId near;  ///< of the tet around it
+};
+
+/// Points that are inserted one after the other.
+struct Block {
+  std::size_t begin, end;
+  Box reach;
+  MeshEditor::Holes holes;
+  std::vector<Seed> left;  ///< those that the reach forbids
+  VerdictTable verdicts;
+};
+
+class SeedLevel {
+ public:
+  SeedLevel(TetMesh& mesh, const SeedOptions& options, int level, int coarsest)
+      : mesh_(mesh), options_(options), level_(level), coarsest_(coarsest) {}
+
+  VerdictTable run() {
+    find_seeds();
+    for (const double shift : {0.0, 0.5}) insert_in_blocks(shift);
+    std::vector<Block> rest(1);
+    constexpr double kFar = std::numeric_limits<double>::max();
+    rest[0] = {0, seeds_.size(), Box{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}}, {}, {}, {}};
+    insert(rest, 0, 1);
+    return verdicts_;
+  }
+
+ private:
+  void find_seeds() {
+    const std::size_t blocks = (mesh_.tets.size() + kReduceBlock - 1) / kReduceBlock;
+    std::vector<std::vector<Seed>> found(blocks);
+    parallel_for(
+        blocks,
+        [&](std::size_t b) {
+          const std::size_t end = std::min(mesh_.tets.size(), (b + 1) * kReduceBlock);
+          for (std::size_t t = b * kReduceBlock; t < end; ++t) find_seeds_in(TetId(t), found[b]);
+        },
+        1);
+    for (const auto& f : found) seeds_.insert(seeds_.end(), f.begin(), f.end());
+  }
+
+  void find_seeds_in(TetId t, std::vector<Seed>& out) const {
+    if (!mesh_.tet_alive(t)) return;
+    const auto& k = mesh_.tets[t];
+    const double cell = options_.lattice.cell_at(level_);
+    float smallest = mesh_.sizes[k[0]];
+    for (VertexId v : k) smallest = std::min(smallest, mesh_.sizes[v]);
+    if (cell < kFinestCell * smallest) return;
+    options_.lattice.for_each_inside(mesh_.corners(t), level_, coarsest_, [&](const Vec3& p) {
+      double size = std::numeric_limits<double>::infinity(), nearest2 = size;
+      VertexId near = kNone;
+      for (VertexId v : k) {
+        const double d2 = distance2(mesh_.points[v], p);
+        if (d2 < nearest2) nearest2 = d2, near = v;
+        size = std::min(size, mesh_.sizes[v] + options_.growth * std::sqrt(d2));
+      }
+      if (options_.size) size = options_.size(p, size);
+      if (cell < kFinestCell * size || nearest2 < kNearest * kNearest * size * size) return;
+      out.push_back({p, float(size), near});
+    });
+  }
+
+  /// Sorts the seeds into blocks and inserts those of each colour at the same time; what a block's
+  /// reach forbids is left.
+  void insert_in_blocks(double shift) {
+    const double edge = kBlock * options_.lattice.cell_at(level_);
+    struct Key {
+      std::int32_t color, x, y, z;
+      std::uint32_t seed;
+      auto block() const { return std::tie(color, x, y, z); }
+    };
+    std::vector<Key> keys(seeds_.size());
+    parallel_for(seeds_.size(), [&](std::size_t i) {
+      auto at = [&](double x) { return std::int32_t(std::floor(x / edge + shift)); };
+      const Vec3& p = seeds_[i].point;
+      const std::int32_t x = at(p.x), y = at(p.y), z = at(p.z);
+      keys[i] = {(x & 1) | (y & 1) << 1 | (z & 1) << 2, x, y, z, std::uint32_t(i)};
+    });
+    parallel_sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+      return std::tuple_cat(a.block(), std::tie(a.seed)) <
+             std::tuple_cat(b.block(), std::tie(b.seed));
+    });
+    std::vector<Seed> sorted(seeds_.size());
+    parallel_for(keys.size(), [&](std::size_t i) { sorted[i] = seeds_[keys[i].seed]; });
+    seeds_.swap(sorted);
+
+    std::vector<Block> blocks;
+    std::array<std::size_t, kColors + 1> first{};
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      if (i == 0 || keys[i].block() != keys[i - 1].block()) {
+        const Vec3 low = edge * (Vec3{double(keys[i].x), double(keys[i].y), double(keys[i].z)} -
+                                 Vec3{shift, shift, shift});
+        const double r = kReach * options_.lattice.cell_at(level_);
+        const Vec3 out{r, r, r}, size{edge, edge, edge};
+        blocks.push_back({i, i, Box{low - out, low + size + out}, {}, {}, {}});
+        ++first[std::size_t(keys[i].color) + 1];
+      }
+      blocks.back().end = i + 1;
+    }
+    for (std::size_t c = 0; c < kColors; ++c) first[c + 1] += first[c];
+    make_holes(blocks);
+    for (std::size_t c = 0; c < kColors; ++c) insert_color(blocks, first[c], first[c + 1]);
+    keep_left(blocks);
+  }
+
+  void insert(std::vector<Block>& blocks, std::size_t begin, std::size_t end) {
+    make_holes(blocks);
+    insert_color(blocks, begin, end);
+    keep_left(blocks);
+  }
+
+  void make_holes(std::vector<Block>& blocks) {
+    std::size_t tets = mesh_.tets.size(), vertices = mesh_.points.size();
+    for (Block& b : blocks) {
+      const auto n = std::int32_t(b.end - b.begin);
+      b.holes = {TetId(tets), kTetsPerVertex * n + kSpareTets, VertexId(vertices), n};
+      tets += std::size_t(b.holes.tets), vertices += std::size_t(b.holes.vertices);
+    }
+    mesh_.resize_tets(tets);
+    mesh_.resize_vertices(vertices);
+  }
+
+  void insert_color(std::vector<Block>& blocks, std::size_t begin, std::size_t end) {
+    parallel_tasks(end - begin, [&](std::size_t i) { insert_block(blocks[begin + i]); });
+  }
+
+  void insert_block(Block& b) {
+    MeshEditor editor(mesh_, b.holes);
+    VertexInsert insert(mesh_, b.reach);
+    Cavity cavity;
+    for (std::size_t i = b.begin; i < b.end; ++i) {
+      const Seed& s = seeds_[i];
+      const TetId around = insert.locate(s.near, s.point);
+      NewVertex vertex;
+      vertex.point = s.point, vertex.size = s.size;
+      Verdict v = around == kNone ? Verdict::kFrozen
+                                  : insert(vertex, editor.next_vertex(), around, cavity);
+      if (v == Verdict::kAccept && !editor.fits(cavity)) v = Verdict::kFrozen;
+      b.verdicts.add(Operator::kVertexInsert, v);
+      if (v == Verdict::kFrozen) b.left.push_back(s);
+      if (v == Verdict::kAccept) editor.commit(cavity);
+    }
+  }
+
+  void keep_left(std::vector<Block>& blocks) {
+    seeds_.clear();
+    for (const Block& b : blocks) {
+      seeds_.insert(seeds_.end(), b.left.begin(), b.left.end());
+      verdicts_ += b.verdicts;
+    }
+  }
+
+  TetMesh& mesh_;
+  const SeedOptions& options_;
+  const int level_, coarsest_;
+  std::vector<Seed> seeds_;
+  VerdictTable verdicts_;
+};
+
+}  // namespace
+
+VerdictTable seed_level(TetMesh& mesh, const SeedOptions& options, int level, int coarsest) {
+  return SeedLevel(mesh, options, level, coarsest).run();
+}
+
+}  // namespace cavea
