@@ -26,11 +26,13 @@ struct Lattice {
 
 namespace lattice_detail {
 
-/// The multiples of `unit` between the smallest and largest of four coordinates.
+/// The multiples of `unit` between the smallest and largest of four coordinates, and a little
+/// beyond: a quotient that is whole may be rounded to either side.
 inline std::pair<std::int64_t, std::int64_t> multiples(double a, double b, double c, double d,
                                                        double unit) {
-  return {std::int64_t(std::ceil(std::min({a, b, c, d}) / unit)),
-          std::int64_t(std::floor(std::max({a, b, c, d}) / unit))};
+  constexpr double kBeyond = 1e-6;
+  return {std::int64_t(std::ceil(std::min({a, b, c, d}) / unit - kBeyond)),
+          std::int64_t(std::floor(std::max({a, b, c, d}) / unit + kBeyond))};
 }
 
 /// The half spaces of a tet's faces: n . p <= d inside.
@@ -66,13 +68,16 @@ void Lattice::for_each_inside(const std::array<Vec3, 4>& tet, int level, int coa
   const auto [z0, z1] = lattice_detail::multiples(a.z, b.z, c.z, d.z, unit);
   if (x0 > x1 || y0 > y1 || z0 > z1) return;
   const lattice_detail::HalfSpaces inside(tet);
+  // Points on common faces and edges, of which a lattice has many, are to be in one tet only.
+  const double little = 1e-7 * unit;
+  const Vec3 off{little, 0.37 * little, 0.71 * little};
   for (std::int64_t i = x0; i <= x1; ++i)
     for (std::int64_t j = y0 + ((y0 ^ i) & 1); j <= y1; j += 2)
       for (std::int64_t k = z0 + ((z0 ^ i) & 1); k <= z1; k += 2) {
         const bool coarser = !(i & 1) && !((i ^ j) & 3) && !((i ^ k) & 3);
         if (coarser && level != coarsest) continue;
         const Vec3 p{double(i) * unit, double(j) * unit, double(k) * unit};
-        if (inside.contain(p)) f(p);
+        if (inside.contain(p + off)) f(p);
       }
 }
 

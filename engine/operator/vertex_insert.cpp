@@ -1,5 +1,8 @@
 #include "cavea/operator/vertex_insert.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "cavea/geometry/quality.h"
 
 namespace cavea {
@@ -18,14 +21,26 @@ constexpr double kLowest = 0.45;
 /// Flatter tets are hard to repair; where the mesh is Delaunay, hardly any is.
 constexpr double kLeastQuality = 1e-4;
 
-/// Whether p is inside the circumsphere of a positive tet, up to rounding: whatever it says, the
-/// cavity is proven by the qualities of its new tets.
+/// Whether p is inside the circumsphere of a positive tet or about on it: where points of lattices
+/// are on common spheres and in common planes, the cavity is then what p sees all of. Whatever this
+/// says, the cavity is proven by the qualities of its new tets.
 bool in_sphere(const Vec3& p, const std::array<Vec3, 4>& tet) {
+  constexpr double kOnSphere = 1e-9;  // rounding of points a thousandth of the mesh apart is 1e-12
   const Vec3 a = tet[0] - p, b = tet[1] - p, c = tet[2] - p, d = tet[3] - p;
   const Vec3 ab = cross(a, b), cd = cross(c, d);
-  return norm2(a) * dot(b, cd) - norm2(b) * dot(a, cd) + norm2(c) * dot(d, ab) -
-             norm2(d) * dot(c, ab) >
-         0;
+  const double a2 = norm2(a), b2 = norm2(b), c2 = norm2(c), d2 = norm2(d);
+  const double far2 = std::max(std::max(a2, b2), std::max(c2, d2));
+  return a2 * dot(b, cd) - b2 * dot(a, cd) + c2 * dot(d, ab) - d2 * dot(c, ab) >
+         -kOnSphere * far2 * far2 * std::sqrt(far2);
+}
+
+/// Whether p is clearly on the outer side of a face: where it is in its plane the tets on both sides
+/// will do, and rounding must not send a walk to and fro.
+bool beyond(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr double kInPlane = 1e-10;
+  const Vec3 n = cross(b - a, c - a), d = p - a;
+  const double height = dot(n, d);
+  return height > 0 && height * height > kInPlane * kInPlane * norm2(n) * norm2(d);
 }
 
 }  // namespace
@@ -71,8 +86,7 @@ TetId VertexInsert::locate(VertexId from, const Vec3& p) const {
     for (int f = 0; f < 4 && next == kNone; ++f) {
       const int* fv = kFaceVertices[f];
       const Vec3& o = x[std::size_t(fv[0])];
-      const Vec3 n = cross(x[std::size_t(fv[1])] - o, x[std::size_t(fv[2])] - o);
-      if (dot(n, p - o) <= 0) continue;
+      if (!beyond(p, o, x[std::size_t(fv[1])], x[std::size_t(fv[2])])) continue;
       inside = false;
       const FaceLink link = mesh_.links[t][f];
       if (!link.is_tet() || link.tet() == before) continue;

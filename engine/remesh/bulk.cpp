@@ -12,7 +12,7 @@ namespace {
 
 /// Edges at least this long in the metric are halved: what is left is for splits one by one, which
 /// choose better.
-static const double kBulkEdge = getenv("BE")?atof(getenv("BE")):2.6;
+constexpr double kBulkEdge = 2.0;
 /// A level is worth its cost when this share of the tets would be divided.
 constexpr double kWorthwhile = 0.02;
 constexpr int kMostLevels = 16;
@@ -27,7 +27,7 @@ bool on_surface(const TetMesh& m, VertexId a, VertexId b) {
   return m.vertex_tags[a] & m.vertex_tags[b] & tag::kSurface;
 }
 
-double share_to_divide(const TetMesh& m, const BulkOptions& options) {
+double share_to_divide(const TetMesh& m) {
   const auto long_ones = parallel_reduce(
       m.tets.size(), std::int64_t{0},
       [&](std::size_t begin, std::size_t end) {
@@ -35,7 +35,7 @@ double share_to_divide(const TetMesh& m, const BulkOptions& options) {
         for (std::size_t t = begin; t < end; ++t)
           n += std::ranges::any_of(kEdgeVertices, [&](const auto& e) {
             const VertexId a = m.tets[t][e[0]], b = m.tets[t][e[1]];
-            return !(options.surface_frozen && on_surface(m, a, b)) && !(options.surface_only && !on_surface(m,a,b)) && is_long(m, a, b);
+            return on_surface(m, a, b) && is_long(m, a, b);
           });
         return n;
       },
@@ -45,19 +45,19 @@ double share_to_divide(const TetMesh& m, const BulkOptions& options) {
 
 }  // namespace
 
-int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, const BulkOptions& options,
+int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface,
                    const std::function<void()>& resize) {
   int level = 0;
-  for (; level < kMostLevels && share_to_divide(mesh, options) > kWorthwhile; ++level) {
-    auto required = [&](const MeshEdge& e) {
-      if (e.triangle == kNone) return options.surface_only;
-      if (options.surface_frozen) return true;
+  for (; level < kMostLevels && share_to_divide(mesh) > kWorthwhile; ++level) {
+    auto halved = [&](const MeshEdge& e) {
+      if (e.triangle == kNone) return false;
       const Triangle& t = mesh.triangles[e.triangle];
-      return ((t.tags | t.edge_tag[std::size_t(e.side)]) & tag::kRequired) != 0;
+      const bool required = (t.tags | t.edge_tag[std::size_t(e.side)]) & tag::kRequired;
+      return !required && is_long(mesh, e.a, e.b);
     };
-    mesh = subdivide(
-        mesh, [&](const MeshEdge& e) { return !required(e) && is_long(mesh, e.a, e.b); },
-        [&](const MeshEdge& e) { return midpoint(mesh, surface, e.a, e.b, e.triangle, e.side); });
+    mesh = subdivide(mesh, halved, [&](const MeshEdge& e) {
+      return midpoint(mesh, surface, e.a, e.b, e.triangle, e.side);
+    });
     resize();
   }
   return level;

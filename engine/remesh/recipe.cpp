@@ -76,6 +76,11 @@ std::vector<Phase> mending_recipe(const ResolvedOptions& o) {
   return {adapt, finish};
 }
 
-std::vector<Phase> recipe(const ResolvedOptions& o) { return {rough(o), fine(o), polish(o)}; }
+std::vector<Phase> recipe(const ResolvedOptions& o, bool seeded) {
+  if (seeded) return {fine(o), polish(o)};
+  return {rough(o), fine(o), polish(o)};
+}
+
+Phase last_phase(const ResolvedOptions& o) { return polish(o); }
 
 }  // namespace cavea

@@ -26,8 +26,12 @@ struct Phase {
 };
 
 /// The phases of section 4.3: rough sampling of the surface, rough and fine adaptation to the
-/// sizes, and a last polish of quality.
-std::vector<Phase> recipe(const ResolvedOptions& options);
+/// sizes, and a last polish of quality. Where most of the volume is `seeded` in the wanted sizes,
+/// nothing is rough.
+std::vector<Phase> recipe(const ResolvedOptions& options, bool seeded);
+
+/// The last phase, which offers everything to poor tets.
+Phase last_phase(const ResolvedOptions& options);
 
 /// The phases that mend an almost finished mesh in the places that are asked.
 std::vector<Phase> mending_recipe(const ResolvedOptions& options);

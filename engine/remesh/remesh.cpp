@@ -13,13 +13,12 @@
 #include "cavea/field/wanted_sizes.h"
 #include "cavea/mesh/check.h"
 #include "cavea/mesh/compact.h"
-#include "cavea/geometry/metric.h"
 #include "cavea/part/round.h"
-#include "cavea/part/seed.h"
 #include "cavea/remesh/budget.h"
 #include "cavea/remesh/bulk.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/resolved.h"
+#include "cavea/remesh/seeding.h"
 #include "cavea/remesh/standing.h"
 #include "cavea/remesh/stubborn.h"
 #include "cavea/surface/attach.h"
@@ -67,8 +66,12 @@ class Run {
   void operator()() {
     timed("analysis", [&] { analyse(); });
     mends_ = ask_if_it_stands();
-    if (!mends_) timed("bulk", [&] { refine(); });
-    for (const Phase& phase : mends_ ? mending_recipe(r_) : recipe(r_))
+    bool seeded = false;
+    if (!mends_) {
+      timed("bulk", [&] { refine(); });
+      timed("seeding", [&] { seeded = seed(); });
+    }
+    for (const Phase& phase : mends_ ? mending_recipe(r_) : recipe(r_, seeded))
       timed(phase.name, [&] { run_phase(phase); });
     mend_poor();
     finish();
@@ -173,56 +176,20 @@ class Run {
   }
 
   void refine() {
-    if (r_.freeze.insert) return;
-    const bool seeds = getenv("SEED") != nullptr;
-    refine_in_bulk(mesh_, working_surface(),
-                   {.surface_only = seeds, .surface_frozen = r_.freeze.surface}, [&] { resize(); });
-    if (seeds) timed("seed", [&] { seed(); });
+    if (r_.freeze.insert || r_.freeze.surface) return;
+    refine_in_bulk(mesh_, working_surface(), [&] { resize(); });
   }
 
-  void seed() {
-    const double k = getenv("SEEDK") ? atof(getenv("SEEDK")) : 1.08;
-    double smallest = 1e300;
-    for (float h : mesh_.sizes) smallest = std::min(smallest, double(h));
-    SeedOptions o;
-    o.lattice.cell = k * smallest;
-    o.growth = std::isfinite(r_.hgrad) ? std::log(r_.hgrad) : 1e30;
-    o.size = [&](const Vec3& p, double bound) {
-      bound = std::min(bound, r_.hmax);
-      return field_ ? std::max(r_.hmin, std::min(bound, field_(p))) : bound;
-    };
-    const int coarsest = std::max(0, int(std::log2(box_diagonal(mesh_) / 4 / o.lattice.cell)));
-    for (int level = coarsest; level >= 0; --level) {
-      Timer timer;
-      const VerdictTable v = seed_level(mesh_, o, level, coarsest);
-      const double t1 = timer.seconds();
-      compact(mesh_);
-      const double t2 = timer.seconds();
-      if (sizes_vary_) resize();
-      const double t3 = timer.seconds();
-      verdicts_ += v;
-      if (!getenv("VERB")) continue;
-      fprintf(stderr, "level %d seed %.3f compact %.3f size %.3f", level, t1, t2 - t1, t3 - t2);
-      for (int k = 0; k < kVerdicts; ++k)
-        fprintf(stderr, " %s %ld", name(Verdict(k)), long(v.count[std::size_t(Operator::kVertexInsert)][k]));
-      const auto q = quality_statistics(mesh_);
-      const auto l = length_statistics(mesh_);
-      fprintf(stderr, " tets %zu worst %g mean %g conf %g\n", mesh_.tets.size(), q.worst, q.mean,
-              l.conforming_percent());
-    }
-    std::int64_t kept = 0;
-    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
-      if (mesh_.qualities[t] < 0.8) continue;
-      bool fine = true;
-      for (const auto& e : kEdgeVertices) {
-        const VertexId a = mesh_.tets[t][e[0]], b = mesh_.tets[t][e[1]];
-        const double l =
-            metric_length(distance(mesh_.points[a], mesh_.points[b]), mesh_.sizes[a], mesh_.sizes[b]);
-        fine &= l > kShortEdge && l < kLongEdge;
-      }
-      if (fine) mesh_.tet_flags[t] &= std::uint8_t(~tet_flag::kAskAll), ++kept;
-    }
-    if (getenv("VERB")) fprintf(stderr, "good %ld\n", long(kept));
+  /// Whether most of the volume is new.
+  bool seed() {
+    if (r_.freeze.insert) return false;
+    constexpr double kMost = 0.1;  // of all vertices
+    const SeedingOptions options{budget_.scale() * r_.hmin, budget_.scale() * r_.hmax, r_.hgrad,
+                                 budget_.scale(), field_};
+    const std::int64_t seeds = seed_interior(mesh_, options, verdicts_);
+    if (sizes_vary_ && seeds > 0) resize();
+    trust_good_tets(mesh_);
+    return double(seeds) > kMost * double(mesh_.points.size());
   }
 
   /// Whether the input is what is asked for, but for places: then those alone are asked, so that
@@ -346,7 +313,7 @@ class Run {
     report_.bulge = measure_bulge(*surface_);
     report_.after = {count(mesh_), quality_statistics(mesh_), length_statistics(mesh_)};
     report_.verdicts = counts_of(verdicts_);
-    report_.stubborn = find_stubborn(mesh_, working_surface(), recipe(r_).back().cycle,
+    report_.stubborn = find_stubborn(mesh_, working_surface(), last_phase(r_).cycle,
                                      std::max(kSoundQuality, options_.min_quality));
     report_.hausd = r_.hausd, report_.hmin = r_.hmin, report_.hmax = r_.hmax,
     report_.hgrad = r_.hgrad;

@@ -1,0 +1,68 @@
+#include "cavea/remesh/seeding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cavea/base/parallel.h"
+#include "cavea/geometry/metric.h"
+#include "cavea/mesh/compact.h"
+#include "cavea/mesh/statistics.h"
+#include "cavea/part/seed.h"
+
+namespace cavea {
+namespace {
+
+/// Cells of this many wanted sizes give edges of 1.08 and 0.94 of them: one on the average.
+constexpr double kCell = 1.08;
+/// The coarsest lattice has this many cells in the mesh's diagonal: then a cavity is not much of
+/// the whole.
+constexpr double kCoarsest = 4;
+/// Levels below hmax: sizes between are never more different.
+constexpr int kMostLevels = 40;
+
+/// Quality of tets that operators hardly improve; those of the lattices are well above.
+constexpr double kGoodTet = 0.8;
+
+bool conforms(const TetMesh& m, TetId t) {
+  return std::ranges::all_of(kEdgeVertices, [&](const auto& e) {
+    const VertexId a = m.tets[t][e[0]], b = m.tets[t][e[1]];
+    const double length =
+        metric_length(distance(m.points[a], m.points[b]), m.sizes[a], m.sizes[b]);
+    return length >= kShortEdge && length <= kLongEdge;
+  });
+}
+
+}  // namespace
+
+std::int64_t seed_interior(TetMesh& mesh, const SeedingOptions& o, VerdictTable& verdicts) {
+  SeedOptions options;
+  options.growth = std::isfinite(o.hgrad) ? std::log(o.hgrad) : std::numeric_limits<double>::max();
+  options.size = [&](const Vec3& p, double bound) {
+    const double most = std::min(bound, o.hmax);
+    return o.field ? std::max(o.hmin, std::min(most, o.scale * o.field(p))) : most;
+  };
+  // The largest size is that of most of the volume: its cells are to fit.
+  const double smallest = *std::ranges::min_element(mesh.sizes);
+  const int levels =
+      std::clamp(int(std::ceil(std::log2(o.hmax / smallest))), 0, kMostLevels);
+  options.lattice.cell = std::ldexp(kCell * o.hmax, -levels);
+  const double cells = box_diagonal(mesh) / (kCoarsest * options.lattice.cell);
+  const int coarsest = std::max(0, int(std::floor(std::log2(cells))));
+  std::int64_t seeds = 0;
+  for (int level = coarsest; level >= 0; --level) {
+    const VerdictTable result = seed_level(mesh, options, level, coarsest);
+    compact(mesh);
+    seeds += result.accepted(Operator::kVertexInsert);
+    verdicts += result;
+  }
+  return seeds;
+}
+
+void trust_good_tets(TetMesh& mesh) {
+  parallel_for(mesh.tets.size(), [&](std::size_t t) {
+    if (mesh.qualities[t] >= kGoodTet && conforms(mesh, TetId(t)))
+      mesh.tet_flags[t] &= std::uint8_t(~tet_flag::kAskAll);
+  });
+}
+
+}  // namespace cavea

@@ -1,0 +1,120 @@
+#include "cavea/operator/vertex_insert.h"
+
+#include <limits>
+
+#include "cavea/cavity/mesh_editor.h"
+#include "cavea/mesh/build.h"
+#include "cavea/mesh/compact.h"
+#include "support/expect.h"
+#include "support/meshes.h"
+#include "support/shape.h"
+
+namespace cavea::test {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::max();
+const Box kEverywhere{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
+
+TEST(IdSet, RemembersWhatIsInUntilItIsCleared) {
+  constexpr std::uint64_t kSeed = 5;
+  Random random(kSeed);
+  IdSet set(200);
+  for (int again = 0; again < 50; ++again) {
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", run " << again);
+    std::vector<char> in(500, 0);
+    for (int k = 0; k < 200; ++k) {
+      const int id = random.below(500);
+      if (random.below(3) == 0) {
+        set.erase(id);
+        in[std::size_t(id)] = 0;
+      } else {
+        EXPECT_EQ(set.insert(id), !in[std::size_t(id)]);
+        in[std::size_t(id)] = 1;
+      }
+    }
+    for (int id = 0; id < 500; ++id) EXPECT_EQ(set.contains(id), bool(in[std::size_t(id)]));
+    set.clear();
+    EXPECT_FALSE(set.contains(3));
+  }
+}
+
+/// Inserts points at random in the unit cube, walking from random vertices.
+struct Insertions {
+  int done = 0, frozen = 0;
+
+  Insertions(TetMesh& mesh, const Box& reach, float size, int points, std::uint64_t seed) {
+    Random random(seed);
+    MeshEditor editor(mesh);
+    VertexInsert insert(mesh, reach);
+    Cavity cavity;
+    for (int k = 0; k < points; ++k) {
+      NewVertex x;
+      x.point = {random.unit(), random.unit(), random.unit()};
+      x.size = size;
+      const TetId t = insert.locate(VertexId(random.below(int(mesh.points.size()))), x.point);
+      if (t == kNone) continue;
+      const auto [a, b, c, d] = mesh.corners(t);
+      EXPECT_GE(volume6(x.point, b, c, d), 0);
+      EXPECT_GE(volume6(a, b, x.point, d), 0);
+      const Verdict v = insert(x, editor.next_vertex(), t, cavity);
+      frozen += v == Verdict::kFrozen;
+      if (v != Verdict::kAccept) continue;
+      editor.commit(cavity);
+      ++done;
+    }
+  }
+};
+
+TEST(VertexInsert, KeepsTheMeshAndTheDomain) {
+  constexpr std::uint64_t kSeed = 11;
+  MeshData octants = kuhn_cube(4), flat = cube_with_flat_tets(5, false);
+  set_refs(octants, [](const Vec3& c) { return (c.x > 0.5) + 2 * (c.y > 0.5); });
+  for (const MeshData& data : {kuhn_cube(1), kuhn_cube(4), octants, flat}) {
+    SCOPED_TRACE(testing::Message() << data.tets.size() << " tets, seed " << kSeed);
+    TetMesh mesh = build(data).mesh;
+    const Euler before = euler(mesh);
+    EXPECT_GT(Insertions(mesh, kEverywhere, 0.05F, 2000, kSeed).done, 300);
+    expect_sound(mesh);
+    EXPECT_NEAR(volume(mesh), 1, 1e-12);
+    EXPECT_EQ(euler(mesh), before);
+  }
+}
+
+/// Points at random that keep apart make slivers, but few.
+TEST(VertexInsert, MakesGoodTets) {
+  TetMesh mesh = build(kuhn_cube(3)).mesh;
+  Insertions(mesh, kEverywhere, 0.1F, 20000, 3);
+  compact(mesh);
+  EXPECT_GT(quality_statistics(mesh).mean, 0.58);
+}
+
+TEST(VertexInsert, LeavesWhatIsRequired) {
+  MeshData data = kuhn_cube(4);
+  for (std::int32_t t = 0; t < std::int32_t(data.tets.size()); t += 7)
+    data.required_tets.push_back(t);
+  TetMesh mesh = build(data).mesh;
+  const TetMesh before = mesh;
+  EXPECT_GT(Insertions(mesh, kEverywhere, 0.03F, 4000, 1).done, 10);
+  expect_sound(mesh);
+  for (const std::int32_t t : data.required_tets) EXPECT_EQ(mesh.tets[t], before.tets[t]);
+}
+
+TEST(VertexInsert, ChangesNothingOutOfReach) {
+  TetMesh mesh = build(kuhn_cube(8)).mesh;
+  const TetMesh before = mesh;
+  const Box reach{{0.2, 0.2, 0.2}, {0.8, 0.8, 0.8}};
+  const Insertions result(mesh, reach, 0.03F, 5000, 2);
+  EXPECT_GT(result.done, 50);
+  EXPECT_GT(result.frozen, 0);
+  expect_sound(mesh);
+  for (std::size_t t = 0; t < before.tets.size(); ++t) {
+    bool inside = true;
+    for (const VertexId v : before.tets[t]) inside &= reach.contains(before.points[v]);
+    if (!inside) {
+      EXPECT_EQ(mesh.tets[t], before.tets[t]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cavea::test
