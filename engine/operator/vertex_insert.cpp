@@ -16,7 +16,7 @@ constexpr int kMostShrinks = 20;
 /// A vertex nearer to another one than this, in wanted sizes, would only be collapsed.
 constexpr double kNearest = 0.65;
 /// The same for its height above a surface triangle.
-constexpr double kLowest = 0.45;
+constexpr double kLowest = 0.4;
 
 /// Flatter tets are hard to repair; where the mesh is Delaunay, hardly any is.
 constexpr double kLeastQuality = 1e-4;
