@@ -34,8 +34,8 @@ bool in_sphere(const Vec3& p, const std::array<Vec3, 4>& tet) {
          -kOnSphere * far2 * far2 * std::sqrt(far2);
 }
 
-/// Whether p is clearly on the outer side of a face: where it is in its plane the tets on both sides
-/// will do, and rounding must not send a walk to and fro.
+/// Whether p is clearly on the outer side of a face: where it is in its plane the tets on both
+/// sides will do, and rounding must not send a walk to and fro.
 bool beyond(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   constexpr double kInPlane = 1e-10;
   const Vec3 n = cross(b - a, c - a), d = p - a;

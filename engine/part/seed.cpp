@@ -164,8 +164,8 @@ class SeedLevel {
       const TetId around = insert.locate(s.near, s.point);
       NewVertex vertex;
       vertex.point = s.point, vertex.size = s.size;
-      Verdict v = around == kNone ? Verdict::kFrozen
-                                  : insert(vertex, editor.next_vertex(), around, cavity);
+      Verdict v =
+          around == kNone ? Verdict::kFrozen : insert(vertex, editor.next_vertex(), around, cavity);
       if (v == Verdict::kAccept && !editor.fits(cavity)) v = Verdict::kFrozen;
       b.verdicts.add(Operator::kVertexInsert, v);
       if (v == Verdict::kFrozen) b.left.push_back(s);

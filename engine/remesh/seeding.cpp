@@ -26,8 +26,7 @@ constexpr double kGoodTet = 0.8;
 bool conforms(const TetMesh& m, TetId t) {
   return std::ranges::all_of(kEdgeVertices, [&](const auto& e) {
     const VertexId a = m.tets[t][e[0]], b = m.tets[t][e[1]];
-    const double length =
-        metric_length(distance(m.points[a], m.points[b]), m.sizes[a], m.sizes[b]);
+    const double length = metric_length(distance(m.points[a], m.points[b]), m.sizes[a], m.sizes[b]);
     return length >= kShortEdge && length <= kLongEdge;
   });
 }
@@ -43,8 +42,7 @@ std::int64_t seed_interior(TetMesh& mesh, const SeedingOptions& o, VerdictTable&
   };
   // The largest size is that of most of the volume: its cells are to fit.
   const double smallest = *std::ranges::min_element(mesh.sizes);
-  const int levels =
-      std::clamp(int(std::ceil(std::log2(o.hmax / smallest))), 0, kMostLevels);
+  const int levels = std::clamp(int(std::ceil(std::log2(o.hmax / smallest))), 0, kMostLevels);
   options.lattice.cell = std::ldexp(kCell * o.hmax, -levels);
   const double cells = box_diagonal(mesh) / (kCoarsest * options.lattice.cell);
   const int coarsest = std::max(0, int(std::floor(std::log2(cells))));

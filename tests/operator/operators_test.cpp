@@ -1,6 +1,8 @@
 // Each operator on all the edges, faces or vertices of small meshes, in a random order.
 #include <functional>
+#include <limits>
 
+#include "cavea/operator/vertex_insert.h"
 #include "operator/stage.h"
 
 namespace cavea::test {
@@ -48,6 +50,19 @@ bool relocate_and_move(Stage& stage, const Item& item) {
   return true;
 }
 
+bool insert_in_the_middle(Stage& stage, const Item& item) {
+  if (!stage.mesh.tet_alive(item[0])) return false;
+  const auto [a, b, c, d] = stage.mesh.corners(item[0]);
+  NewVertex x;
+  x.point = (a + b + c + d) / 4;
+  x.size = float(distance(x.point, a));
+  constexpr double kFar = std::numeric_limits<double>::max();
+  VertexInsert insert(stage.mesh, Box{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}});
+  const VertexId id = stage.editor.next_vertex();
+  return insert(x, id, item[0], stage.cavity) == Verdict::kAccept &&
+         commit_if(stage, Verdict::kAccept);
+}
+
 const Action kActions[] = {
     {Operator::kEdgeSplit, edges_of,
      [](Stage& s, const Item& e) { return s.find_edge(e[0], e[1]) && commit_if(s, s.split()); }},
@@ -71,6 +86,7 @@ const Action kActions[] = {
      [](Stage& s, const Item& t) {
        return s.mesh.tet_alive(t[0]) && commit_if(s, reconnect(s.context, t[0], true, s.cavity));
      }},
+    {Operator::kVertexInsert, tets_of, insert_in_the_middle},
 };
 
 const Action& action(Operator op) { return kActions[std::size_t(op)]; }

@@ -19,8 +19,9 @@ std::vector<std::array<double, 3>> points_of(const TetMesh& mesh, const Lattice&
                                              int coarsest) {
   std::vector<std::array<double, 3>> points;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    lattice.for_each_inside(mesh.corners(TetId(t)), level, coarsest,
-                            [&](const Vec3& p) { points.push_back({p.x, p.y, p.z}); });
+    lattice.for_each_inside(mesh.corners(TetId(t)), level, coarsest, [&](const Vec3& p) {
+      points.push_back({p.x, p.y, p.z});
+    });
   std::sort(points.begin(), points.end());
   return points;
 }
