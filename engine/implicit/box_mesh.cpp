@@ -41,6 +41,8 @@ class Grid {
         for (std::int32_t i = 0; i < count_[0]; ++i) add_cell({i, j, k}, data.tets);
     data.vertex_refs.assign(data.vertices.size(), 0);
     data.tet_refs.assign(data.tets.size(), 1);
+    for (int axis = 0; axis < 3; ++axis)
+      for (int side = 0; side < 4; ++side) add_ridge(axis, side & 1, side >> 1, data);
     return data;
   }
 
@@ -71,6 +73,20 @@ class Grid {
       }
       if (p >= 3) std::swap(tet[2], tet[3]);  // an odd order of the axes
       tets.push_back(tet);
+    }
+  }
+
+  /// One of the four edges of the box along an axis: at the low or the high end of the other axes.
+  void add_ridge(int axis, bool high_second, bool high_third, MeshData& data) const {
+    Place at{};
+    if (high_second) at[(axis + 1) % 3] = count_[(axis + 1) % 3];
+    if (high_third) at[(axis + 2) % 3] = count_[(axis + 2) % 3];
+    while (at[axis] < count_[axis]) {
+      const std::int32_t first = vertex(at);
+      ++at[axis];
+      data.ridges.push_back(std::int32_t(data.edges.size()));
+      data.edges.push_back({first, vertex(at)});
+      data.edge_refs.push_back(0);
     }
   }
 

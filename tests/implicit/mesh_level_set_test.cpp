@@ -39,6 +39,7 @@ TEST(BoxMesh, FillsABoxWithKuhnTets) {
   const TetMesh mesh = build(box_mesh(slab, 100)).mesh;
   expect_sound(mesh);
   EXPECT_NEAR(volume(mesh), 4 * 0.5 * 0.2, 1e-12);
+  EXPECT_EQ(to_data(cube).ridges.size(), 12u * 8u);
   EXPECT_EQ(count(mesh).box_min, slab.low);
   EXPECT_EQ(count(mesh).box_max, slab.high);
   EXPECT_GT(quality_statistics(mesh).worst, 0.5);

@@ -46,12 +46,31 @@ TEST_F(GridRunTest, MeshesEveryClosedSample) {
 
 TEST_F(GridRunTest, MeshesAnOpenSampleToTheEndOfItsGrid) {
   make_grid("gyroid");
-  const Outcome outcome = cavea({"implicit", "gyroid.vdb", "-o", "out.meshb", "--hausd", "0.01"});
+  const Outcome outcome = cavea({"implicit", "gyroid.vdb", "-o", "out.meshb", "--hausd", "0.02"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("open at the boundary"), std::string::npos) << outcome.out;
   const Counts counts = count(mesh("out.meshb"));
   EXPECT_NEAR(counts.volume, 1, 1e-9);
   EXPECT_NEAR(counts.volume_of_ref.at(3), 0.5, 0.01);
+}
+
+TEST_F(GridRunTest, KeepsTheBoxSharpAndRoundsWhatVoxelsHaveRounded) {
+  write_text(file("cube.mesh"), cube_text());
+  ASSERT_EQ(cavea({"grid", "surface", "cube.mesh", "-o", "cube.vdb", "--voxels", "16"}).status, 0);
+  const auto ridges = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"implicit", "cube.vdb", "-o", "out.meshb", "--hausd", "0.04"});
+    EXPECT_EQ(cavea(words).status, 0);
+    const MeshData data = read_mesh(file("out.meshb"), nullptr);
+    EXPECT_GE(data.corners.size(), 8u);
+    double length = 0;
+    for (const std::int32_t e : data.ridges)
+      length += distance(data.vertices[data.edges[e][0]], data.vertices[data.edges[e][1]]);
+    return length;
+  };
+  const double of_box =
+      12 * (1 + 4.0 / 16) * 1.2;  // with two voxels of the band and the margin on either side
+  EXPECT_NEAR(ridges({}), of_box, 0.02 * of_box);
+  EXPECT_GT(ridges({"--angle", "30"}), of_box + 1);
 }
 
 TEST_F(GridRunTest, MeshesAGivenBoxOnly) {

@@ -6,6 +6,7 @@
 
 #include "cavea/base/error.h"
 #include "empty_values.h"
+#include "grid_domain.h"
 #include "parameters.h"
 
 namespace cavea::program {
@@ -54,9 +55,9 @@ void add_gradation_flags(CLI::App& command, RemeshArguments& arguments) {
 }
 
 void add_surface_flags(CLI::App& command, RemeshArguments& arguments) {
-  CLI::Option* angle = command.add_option("--angle", arguments.options.angle,
-                                          "Angle between normals, in degrees, that makes a ridge");
-  angle->capture_default_str();
+  CLI::Option* angle = command.add_option("--angle", arguments.angle,
+                                          "Angle between normals, in degrees, that makes a ridge "
+                                          "[45; in a .vdb file there are none]");
   command.add_flag("--no-angle", arguments.no_angle, "Detect no ridges")->excludes(angle);
   command.add_flag("--keep-internal", arguments.build.keep_internal,
                    "Keep triangles between tetrahedra of one reference as surface");
@@ -131,9 +132,12 @@ CLI::App* add_implicit_command(CLI::App& app, RemeshArguments& arguments) {
   return command;
 }
 
+bool RemeshArguments::detects_ridges() const { return !no_angle && (angle || !is_grid(input)); }
+
 Options to_options(const RemeshArguments& arguments) {
   Options options = arguments.options;
-  options.detect_ridges = !arguments.no_angle;
+  options.detect_ridges = arguments.detects_ridges();
+  if (arguments.angle) options.angle = *arguments.angle;
   if (arguments.no_hgrad) options.hgrad.reset();
   if (arguments.no_hgradreq) options.hgradreq.reset();
   // The library reads 0 as "all cores"; a number that a user typed must be one.

@@ -21,10 +21,15 @@ struct RemeshArguments {
   std::string report;      ///< empty: none
   std::optional<ImplicitArguments> implicit;  ///< none: nothing is cut before
   BuildOptions build;
-  Options options;  ///< without threads, progress and cancel
+  Options options;  ///< without angle, threads, progress and cancel
+  std::optional<double> angle;
   std::optional<int> threads;
   bool no_angle = false, no_hgrad = false, no_hgradreq = false;
   bool verbose = false, quiet = false;
+
+  /// Whether sharp edges become ridges. Those of a grid's level set are as round as its voxels:
+  /// only if an angle is given.
+  bool detects_ridges() const;
 };
 
 /// Adds the command and its flags; parsing fills `arguments`, which must outlive `app`.

@@ -24,7 +24,7 @@ Json options_json(const RunReport& run) {
   options["sol"] = nullptr;
   if (!run.arguments.sizes.empty()) options["sol"] = run.arguments.sizes;
   if (asked.hsiz) options["hsiz"] = *asked.hsiz;
-  if (!run.arguments.no_angle) options["angle"] = asked.angle;
+  if (run.arguments.detects_ridges()) options["angle"] = run.arguments.angle.value_or(asked.angle);
   options["params"] = nullptr;
   if (!run.arguments.parameters.empty()) options["params"] = run.arguments.parameters;
   options["max_tets"] = nullptr;
