@@ -67,10 +67,13 @@ struct BlockFindings {
 struct Grid::Source {
   virtual ~Source() = default;
   virtual double value(const Vec3& p) const = 0;
+  /// The place nearest to p that is `voxels` voxels inside of the bounds.
+  virtual Vec3 inside(const Vec3& p, int voxels) const = 0;
 
   Vec3 gradient(const Vec3& p) const {
     const double h = voxel;
-    const auto slope = [&](const Vec3& e) { return (value(p + e) - value(p - e)) / (2 * h); };
+    const Vec3 at = inside(p, 1);
+    const auto slope = [&](const Vec3& e) { return (value(at + e) - value(at - e)) / (2 * h); };
     return {slope({h, 0, 0}), slope({0, h, 0}), slope({0, 0, h})};
   }
 
@@ -107,12 +110,27 @@ class TypedSource final : public Base {
   }
 
   double value(const Vec3& p) const override {
-    const Vec3d at = grid_->worldToIndex(from_vec3(p));
+    // Beyond the bounds, values of the background say nothing.
+    const Vec3d at = clamped(grid_->worldToIndex(from_vec3(p)), 0);
     const Accessor accessor(grid_->tree());
     return signed_value(openvdb::tools::BoxSampler::sample(accessor, at));
   }
 
+  Vec3 inside(const Vec3& p, int voxels) const override {
+    return to_vec3(grid_->indexToWorld(clamped(grid_->worldToIndex(from_vec3(p)), voxels)));
+  }
+
  private:
+  /// An index, moved into the box of active voxels, or its middle where that is too narrow.
+  Vec3d clamped(Vec3d at, int voxels) const {
+    for (int k = 0; k < 3; ++k) {
+      const double low = active_.min()[k], high = active_.max()[k];
+      const double margin = std::min<double>(voxels, (high - low) / 2);
+      at[k] = std::clamp(at[k], low + margin, high - margin);
+    }
+    return at;
+  }
+
   double signed_value(double x) const { return fog_ ? iso_ - x : x - iso_; }
 
   /// Looks at all voxels near active ones, block by block. \throw InputError

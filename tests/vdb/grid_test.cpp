@@ -74,6 +74,9 @@ TEST(Grid, ThatReachesTheBoxIsOpen) {
   const Grid grid(folder / "plane.vdb", {});
   EXPECT_TRUE(grid.is_open());
   EXPECT_NEAR(grid.bounds().high.y, 1, 1e-9);
+  const Vec3 slope = grid.gradient({0.45, 0.5, 1});
+  EXPECT_NEAR(slope.z, 0, 1e-6) << "nothing of what is beyond";
+  EXPECT_NEAR(slope.x, 1, 1e-4);
 }
 
 template <class GridType>
