@@ -21,6 +21,9 @@ FaceLink renumbered(FaceLink link, const Renumbering& tets, const Renumbering& t
 void compact(TetMesh& mesh) {
   const Renumbering vertices = living_vertices(mesh), tets = living_tets(mesh),
                     triangles = living_triangles(mesh);
+  if (vertices.count == mesh.points.size() && tets.count == mesh.tets.size() &&
+      triangles.count == mesh.triangles.size())
+    return;
   // One array at a time, so that no more than one is held twice.
   keep(vertices, mesh.points);
   keep(vertices, mesh.sizes);

@@ -10,18 +10,18 @@
 namespace cavea {
 namespace {
 
-constexpr std::int32_t kShared = -2;
+constexpr std::int32_t kShared = -2, kUnseen = -3;
 
-/// The part of each vertex, or kShared.
+/// The part of each vertex, kIdle or kShared.
 std::vector<std::int32_t> vertex_parts(const TetMesh& mesh,
                                        const std::vector<std::int32_t>& labels) {
-  std::vector<std::int32_t> part(mesh.points.size(), kNone);
+  std::vector<std::int32_t> part(mesh.points.size(), kUnseen);
   parallel_for(mesh.tets.size(), [&](std::size_t t) {
     for (VertexId v : mesh.tets[t]) {
       std::atomic_ref ref(part[v]);
       std::int32_t seen = ref.load(std::memory_order_relaxed);
       while (seen != labels[t] && seen != kShared) {
-        const std::int32_t wanted = seen == kNone ? labels[t] : kShared;
+        const std::int32_t wanted = seen == kUnseen ? labels[t] : kShared;
         if (ref.compare_exchange_weak(seen, wanted, std::memory_order_relaxed)) break;
       }
     }
@@ -59,8 +59,8 @@ struct Whole {
   std::vector<std::int32_t> vertex_part;
   /// Local id of each triangle in the part of each of its sides.
   std::vector<std::array<TriangleId, 2>> local_triangle;
-  /// For cut k of each part: the lower of the codes of the two faces.
-  std::vector<std::vector<std::int32_t>> cut_keys;
+  /// For cut k of each part: the codes of its face and of the one behind.
+  std::vector<std::vector<std::array<std::int32_t, 2>>> cut_faces;
 };
 
 class Extraction {
@@ -77,6 +77,7 @@ class Extraction {
     take_triangles();
     link_tets();
     point_vertices_to_tets();
+    part_.tets.assign(tets_.begin(), tets_.end());
   }
 
  private:
@@ -87,13 +88,13 @@ class Extraction {
   VertexId local_vertex(VertexId v) const {
     if (whole_.vertex_part[v] != kShared) return whole_.vertices.local[v];
     const auto& s = part_.shared_vertices;
-    return VertexId(part_.own_vertices) +
+    return VertexId(part_.own_vertices.size()) +
            VertexId(std::lower_bound(s.begin(), s.end(), v) - s.begin());
   }
 
   void take_vertices() {
     const auto own = whole_.vertices.buckets.of(std::size_t(number_));
-    part_.own_vertices = own.size();
+    part_.own_vertices.assign(own.begin(), own.end());
     auto& shared = part_.shared_vertices;
     for (std::uint32_t t : tets_)
       for (VertexId v : whole_.mesh.tets[t])
@@ -140,13 +141,14 @@ class Extraction {
         const int side = s.sides[0] == FaceLink::to_tet(TetId(t), f) ? 0 : 1;
         const FaceLink other = s.sides[std::size_t(1 - side)];
         if (other.is_tet() && !here(other))
-          part_.triangle_of.push_back(id);
+          part_.triangles.push_back(id);
         else if (side == 0 || !other.is_tet())
           own.push_back(id);
       }
-    part_.shared_triangles = part_.triangle_of.size();
-    for (TriangleId id : part_.triangle_of) take_triangle(id, tag::kFrozen);
+    part_.shared_triangles = part_.triangles.size();
+    for (TriangleId id : part_.triangles) take_triangle(id, tag::kFrozen);
     for (TriangleId id : own) take_triangle(id, 0);
+    part_.triangles.insert(part_.triangles.end(), own.begin(), own.end());
   }
 
   void take_triangle(TriangleId id, Tag extra) {
@@ -162,7 +164,7 @@ class Extraction {
   }
 
   void link_tets() {
-    auto& keys = whole_.cut_keys[std::size_t(number_)];
+    auto& cuts = whole_.cut_faces[std::size_t(number_)];
     for (std::size_t i = 0; i < tets_.size(); ++i)
       for (int f = 0; f < 4; ++f) {
         const FaceLink mine = FaceLink::to_tet(TetId(tets_[i]), f);
@@ -175,8 +177,8 @@ class Extraction {
         } else if (here(link)) {
           out = local_face(link);
         } else {
-          out = FaceLink::to_cut(std::int32_t(keys.size()));
-          keys.push_back(std::min(mine.code(), link.code()));
+          out = FaceLink::to_cut(std::int32_t(cuts.size()));
+          cuts.push_back({mine.code(), link.code()});
         }
       }
   }
@@ -192,24 +194,35 @@ class Extraction {
   const std::span<const std::uint32_t> tets_;
 };
 
-/// Finds for each cut the cut of the other part on the same face.
-void pair_cuts(const std::vector<std::vector<std::int32_t>>& cut_keys, std::vector<Part>& parts) {
+/// Finds for each cut the cut of the other part on the same face, or the idle face.
+void pair_cuts(const std::vector<std::vector<std::array<std::int32_t, 2>>>& cut_faces,
+               std::vector<Part>& parts) {
   struct Cut {
-    std::int32_t key, part, number;
+    std::int32_t key, part, number;  // the key is the lower of the codes of the two faces
   };
   std::vector<Cut> cuts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    parts[p].partners.resize(cut_keys[p].size());
-    for (std::size_t k = 0; k < cut_keys[p].size(); ++k)
-      cuts.push_back({cut_keys[p][k], std::int32_t(p), std::int32_t(k)});
+    parts[p].partners.resize(cut_faces[p].size());
+    for (std::size_t k = 0; k < cut_faces[p].size(); ++k) {
+      const auto [mine, behind] = cut_faces[p][k];
+      cuts.push_back({std::min(mine, behind), std::int32_t(p), std::int32_t(k)});
+    }
   }
   parallel_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
     return std::tie(a.key, a.part) < std::tie(b.key, b.part);
   });
-  for (std::size_t i = 0; i + 1 < cuts.size(); i += 2) {
-    const Cut &a = cuts[i], &b = cuts[i + 1];
-    parts[std::size_t(a.part)].partners[std::size_t(a.number)] = {b.part, b.number};
-    parts[std::size_t(b.part)].partners[std::size_t(b.number)] = {a.part, a.number};
+  auto pair = [&](const Cut& a, Part::Partner with) {
+    parts[std::size_t(a.part)].partners[std::size_t(a.number)] = with;
+  };
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const Cut& a = cuts[i];
+    if (i + 1 < cuts.size() && cuts[i + 1].key == a.key) {
+      const Cut& b = cuts[++i];
+      pair(a, {b.part, b.number});
+      pair(b, {a.part, a.number});
+    } else {
+      pair(a, {kIdle, cut_faces[std::size_t(a.part)][std::size_t(a.number)][1]});
+    }
   }
 }
 
@@ -224,10 +237,10 @@ std::vector<Part> extract_parts(const TetMesh& mesh, const std::vector<std::int3
               Groups(vertex_part, parts),
               std::move(vertex_part),
               std::vector<std::array<TriangleId, 2>>(mesh.triangles.size(), {kNone, kNone}),
-              std::vector<std::vector<std::int32_t>>(std::size_t(parts))};
+              std::vector<std::vector<std::array<std::int32_t, 2>>>(std::size_t(parts))};
   std::vector<Part> result(static_cast<std::size_t>(parts));
   parallel_tasks(result.size(), [&](std::size_t p) { Extraction(whole, int(p), result[p]).run(); });
-  pair_cuts(whole.cut_keys, result);
+  pair_cuts(whole.cut_faces, result);
   return result;
 }
 

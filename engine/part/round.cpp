@@ -1,9 +1,11 @@
 #include "cavea/part/round.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "cavea/base/parallel.h"
 #include "cavea/mesh/compact.h"
+#include "cavea/mesh/renumber.h"
 #include "cavea/mesh/wanted_tets.h"
 #include "cavea/part/extract.h"
 #include "cavea/partition/blocks.h"
@@ -19,29 +21,72 @@ constexpr std::int64_t kTetsPerPart = 64000;
 constexpr int kManyParts = 16;
 constexpr std::int64_t kManyPartsAbove = 100000;
 
-std::vector<std::int32_t> label_parts(const TetMesh& m, int parts) {
-  const std::size_t n = m.tets.size();
+/// So many layers of tets around those that are asked take part: the first so that their balls are
+/// whole, the others so that what changes there can be answered to.
+constexpr int kLayers = 2;
+
+/// Whether a cycle with these settings would ask the tet something.
+bool is_asked(const TetMesh& m, std::size_t t, const CycleSettings& s) {
+  const std::uint8_t flags = m.tet_flags[t];
+  return (flags & tet_flag::kAskLength) ||
+         ((flags & tet_flag::kAskSwap) && m.qualities[t] < s.swap_ceiling) ||
+         ((flags & tet_flag::kAskMove) && m.qualities[t] <= s.move_ceiling);
+}
+
+/// The tets that are asked something and those around.
+std::vector<std::uint8_t> active_tets(const TetMesh& m, const CycleSettings& settings) {
+  std::vector<std::uint8_t> active(m.tets.size()), near(m.points.size(), 0);
+  parallel_for(m.tets.size(), [&](std::size_t t) { active[t] = is_asked(m, t, settings); });
+  for (int layer = 0; layer < kLayers; ++layer) {
+    parallel_for(m.tets.size(), [&](std::size_t t) {
+      if (!active[t]) return;
+      for (const VertexId v : m.tets[t])
+        std::atomic_ref(near[v]).store(1, std::memory_order_relaxed);
+    });
+    parallel_for(m.tets.size(), [&](std::size_t t) {
+      for (const VertexId v : m.tets[t]) active[t] |= near[v];
+    });
+  }
+  return active;
+}
+
+/// The ids of the active tets, ascending.
+std::vector<TetId> ids_of(const std::vector<std::uint8_t>& active) {
+  std::vector<TetId> ids;
+  for (std::size_t t = 0; t < active.size(); ++t)
+    if (active[t]) ids.push_back(TetId(t));
+  return ids;
+}
+
+/// A part for each of the tets, kIdle for those that are not in the list.
+std::vector<std::int32_t> label_parts(const TetMesh& m, const std::vector<TetId>& tets, int parts) {
+  const std::size_t n = tets.size();
+  std::vector<std::int32_t> labels(m.tets.size(), kIdle);  // first the item of a tet
+  parallel_for(n, [&](std::size_t i) { labels[tets[i]] = std::int32_t(i); });
   std::vector<Vec3> centers(n);
   std::vector<float> work(n);
   std::vector<std::array<std::int32_t, 4>> neighbors(n);
-  parallel_for(n, [&](std::size_t t) {
-    const auto [a, b, c, d] = m.corners(TetId(t));
-    centers[t] = (a + b + c + d) / 4;
-    work[t] = float(1 + wanted_tets(m, TetId(t)));
+  parallel_for(n, [&](std::size_t i) {
+    const TetId t = tets[i];
+    const auto [a, b, c, d] = m.corners(t);
+    centers[i] = (a + b + c + d) / 4;
+    work[i] = float(1 + wanted_tets(m, t));
     for (int f = 0; f < 4; ++f) {
-      const FaceLink link = m.across(TetId(t), f);
-      neighbors[t][f] = link.is_tet() ? link.tet() : kNone;
+      const FaceLink link = m.across(t, f);
+      neighbors[i][f] = link.is_tet() ? labels[link.tet()] : kNone;
     }
   });
   // A face is spared for each of its vertices that was on the interface.
   constexpr std::int32_t kSpare = 10;
-  auto weight = [&](std::int32_t t, int f) {
+  auto weight = [&](std::int32_t i, int f) {
     std::int32_t w = 1;
     for (int k : kFaceVertices[f])
-      if (m.vertex_tags[m.tets[t][k]] & tag::kWasInterface) w += kSpare;
+      if (m.vertex_tags[m.tets[tets[i]][k]] & tag::kWasInterface) w += kSpare;
     return w;
   };
-  return partition_items({centers, neighbors, work, weight}, parts);
+  const std::vector<std::int32_t> part = partition_items({centers, neighbors, work, weight}, parts);
+  parallel_for(n, [&](std::size_t i) { labels[tets[i]] = part[i]; });
+  return labels;
 }
 
 RoundResult run_whole(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings) {
@@ -61,16 +106,19 @@ int part_count(std::int64_t tets) {
 
 RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings,
                       std::vector<std::int32_t>* part_of_tet) {
-  const int count = part_count(std::int64_t(mesh.tets.size()));
-  if (part_of_tet) part_of_tet->clear();
-  if (count == 1) {
+  const std::vector<TetId> active = ids_of(active_tets(mesh, settings));
+  if (active.empty()) {
+    if (part_of_tet) part_of_tet->assign(mesh.tets.size(), kIdle);
+    return {{}, 0};
+  }
+  const int count = part_count(std::int64_t(active.size()));
+  if (count == 1 && 2 * active.size() > mesh.tets.size()) {
     const RoundResult result = run_whole(mesh, surface, settings);
     if (part_of_tet) part_of_tet->assign(mesh.tets.size(), 0);
     return result;
   }
-  std::vector<Part> parts = extract_parts(mesh, label_parts(mesh, count), count);
-  const std::size_t vertices = mesh.points.size(), triangles = mesh.triangles.size();
-  mesh = {};
+  const std::vector<std::int32_t> labels = label_parts(mesh, active, count);
+  std::vector<Part> parts = extract_parts(mesh, labels, count);
   std::vector<CycleResult> results(parts.size());
   // Largest first, so that the last to finish is small.
   std::vector<std::size_t> order(parts.size());
@@ -83,11 +131,10 @@ RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
     if (part.mesh.tets.empty()) return;
     results[order[i]] = run_cycle(part.mesh, surface, settings);
   });
-  if (part_of_tet)
-    for (std::size_t p = 0; p < parts.size(); ++p)
-      for (std::size_t t = 0; t < parts[p].mesh.tets.size(); ++t)
-        if (parts[p].mesh.tet_alive(TetId(t))) part_of_tet->push_back(std::int32_t(p));
-  mesh = stitch_parts(parts, vertices, triangles);
+  std::vector<std::int32_t> part_of(mesh.tets.size(), kIdle);
+  stitch_parts(mesh, parts, part_of);
+  if (part_of_tet) *part_of_tet = living_tets(mesh).kept_of(part_of);
+  compact(mesh);
   RoundResult result;
   result.parts = count;
   for (const CycleResult& r : results) {

@@ -12,11 +12,12 @@ struct RoundResult {
   int parts = 1;
 };
 
-/// One parallel round: partitions the mesh, runs the cycle on every part with its interface frozen,
-/// and stitches the parts. Faces that were interface in the round before are spared by the cut, so
-/// that what was frozen moves into the interior. `settings.most_tets` is per part. The result has
-/// no holes and does not depend on the number of threads. \param part_of_tet if not null, the part
-/// that each tet of the result came from. \throw Cancelled
+/// One parallel round: partitions the tets that are asked something and those around them, runs the
+/// cycle on every part with its interface frozen, and stitches the parts; the rest is idle. Faces
+/// that were interface in the round before are spared by the cut, so that what was frozen moves
+/// into the interior. `settings.most_tets` is per part. The result has no holes and does not depend
+/// on the number of threads. \param part_of_tet if not null, the part that each tet of the result
+/// came from, kIdle for those of none. \throw Cancelled
 RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings,
                       std::vector<std::int32_t>* part_of_tet = nullptr);
 

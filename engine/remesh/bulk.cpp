@@ -1,7 +1,5 @@
 #include "cavea/remesh/bulk.h"
 
-#include <algorithm>
-
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/subdivide/subdivide.h"
@@ -13,7 +11,7 @@ namespace {
 /// Edges at least this long in the metric are halved: what is left is for splits one by one, which
 /// choose better.
 constexpr double kBulkEdge = 2.0;
-/// A level is worth its cost when this share of the tets would be divided.
+/// A level is worth its cost when this share of the surface triangles would be divided.
 constexpr double kWorthwhile = 0.02;
 constexpr int kMostLevels = 16;
 
@@ -23,24 +21,25 @@ bool is_long(const TetMesh& m, VertexId a, VertexId b) {
   return metric_length(distance(m.points[a], m.points[b]), m.sizes[a], m.sizes[b]) > kBulkEdge;
 }
 
-bool on_surface(const TetMesh& m, VertexId a, VertexId b) {
-  return m.vertex_tags[a] & m.vertex_tags[b] & tag::kSurface;
+/// Whether the edge opposite corner k of a surface triangle is to be halved.
+bool halved(const TetMesh& m, const Triangle& t, std::size_t k) {
+  return !((t.tags | t.edge_tag[k]) & tag::kRequired) &&
+         is_long(m, t.v[(k + 1) % 3], t.v[(k + 2) % 3]);
 }
 
 double share_to_divide(const TetMesh& m) {
   const auto long_ones = parallel_reduce(
-      m.tets.size(), std::int64_t{0},
+      m.triangles.size(), std::int64_t{0},
       [&](std::size_t begin, std::size_t end) {
         std::int64_t n = 0;
-        for (std::size_t t = begin; t < end; ++t)
-          n += std::ranges::any_of(kEdgeVertices, [&](const auto& e) {
-            const VertexId a = m.tets[t][e[0]], b = m.tets[t][e[1]];
-            return on_surface(m, a, b) && is_long(m, a, b);
-          });
+        for (std::size_t i = begin; i < end; ++i) {
+          const Triangle& t = m.triangles[i];
+          n += halved(m, t, 0) || halved(m, t, 1) || halved(m, t, 2);
+        }
         return n;
       },
       [](std::int64_t a, std::int64_t b) { return a + b; });
-  return double(long_ones) / double(m.tets.size());
+  return m.triangles.empty() ? 0 : double(long_ones) / double(m.triangles.size());
 }
 
 }  // namespace
@@ -49,15 +48,13 @@ int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface,
                    const std::function<void()>& resize) {
   int level = 0;
   for (; level < kMostLevels && share_to_divide(mesh) > kWorthwhile; ++level) {
-    auto halved = [&](const MeshEdge& e) {
-      if (e.triangle == kNone) return false;
-      const Triangle& t = mesh.triangles[e.triangle];
-      const bool required = (t.tags | t.edge_tag[std::size_t(e.side)]) & tag::kRequired;
-      return !required && is_long(mesh, e.a, e.b);
-    };
-    mesh = subdivide(mesh, halved, [&](const MeshEdge& e) {
-      return midpoint(mesh, surface, e.a, e.b, e.triangle, e.side);
-    });
+    mesh = subdivide(
+        mesh,
+        [&](const MeshEdge& e) {
+          return e.triangle != kNone &&
+                 halved(mesh, mesh.triangles[e.triangle], std::size_t(e.side));
+        },
+        [&](const MeshEdge& e) { return midpoint(mesh, surface, e.a, e.b, e.triangle, e.side); });
     resize();
   }
   return level;

@@ -77,8 +77,10 @@ std::vector<Phase> mending_recipe(const ResolvedOptions& o) {
 }
 
 std::vector<Phase> recipe(const ResolvedOptions& o, bool seeded) {
-  if (seeded) return {fine(o), polish(o)};
-  return {rough(o), fine(o), polish(o)};
+  if (!seeded) return {rough(o), fine(o), polish(o)};
+  Phase first = fine(o);
+  first.ask = 0;  // no phase with other limits came before
+  return {first, polish(o)};
 }
 
 Phase last_phase(const ResolvedOptions& o) { return polish(o); }

@@ -20,8 +20,9 @@ constexpr double kCoarsest = 4;
 /// Levels below hmax: sizes between are never more different.
 constexpr int kMostLevels = 40;
 
-/// Quality of tets that operators hardly improve; those of the lattices are well above.
-constexpr double kGoodTet = 0.8;
+/// Better tets are not offered swaps while lengths are adapted; those of the lattices are well
+/// above.
+constexpr double kGoodTet = 0.75;
 
 bool conforms(const TetMesh& m, TetId t) {
   return std::ranges::all_of(kEdgeVertices, [&](const auto& e) {

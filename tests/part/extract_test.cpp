@@ -32,10 +32,10 @@ TEST(Parts, AreSoundMeshesWithTheirInterfaceFrozen) {
       EXPECT_EQ(part.mesh.tets.size(),
                 std::size_t(std::count(cut.labels.begin(), cut.labels.end(), std::int32_t(p))));
       expect_sound(part.mesh);
-      EXPECT_EQ(part.mesh.points.size(), part.own_vertices + part.shared_vertices.size());
+      EXPECT_EQ(part.mesh.points.size(), part.own_vertices.size() + part.shared_vertices.size());
       for (std::size_t v = 0; v < part.mesh.points.size(); ++v) {
         const bool frozen = part.mesh.vertex_tags[v] & tag::kFrozen;
-        EXPECT_EQ(frozen, v >= part.own_vertices);
+        EXPECT_EQ(frozen, v >= part.own_vertices.size());
         EXPECT_EQ(frozen,
                   std::binary_search(shared.begin(), shared.end(), place(part.mesh, VertexId(v))));
       }
@@ -46,7 +46,7 @@ TEST(Parts, AreSoundMeshesWithTheirInterfaceFrozen) {
 TEST(Parts, StitchedAsTheyAreGiveTheMeshBack) {
   for_each_cut([](const TetMesh& mesh, const Cut& cut) {
     std::vector<Part> parts = extract_parts(mesh, cut.labels, cut.parts);
-    const TetMesh back = stitch_parts(parts, mesh.points.size(), mesh.triangles.size());
+    const TetMesh back = stitched(mesh, parts);
     expect_sound(back);
     EXPECT_TRUE(Canonical(back) == Canonical(mesh));
     EXPECT_EQ(tagged_places(back, tag::kWasInterface), shared_places(mesh, cut.labels));
@@ -63,7 +63,7 @@ TEST(Parts, CanBeCutAgainAnotherWay) {
         labels_of(mesh, [&](std::size_t, const Vec3&) { return random.below(7); });
     const std::vector<Place> shared = shared_places(mesh, labels);
     std::vector<Part> parts = extract_parts(mesh, labels, 7);
-    mesh = stitch_parts(parts, mesh.points.size(), mesh.triangles.size());
+    mesh = stitched(mesh, parts);
     expect_sound(mesh);
     EXPECT_TRUE(Canonical(mesh) == before) << "round " << round << ", seed " << kSeed;
     EXPECT_EQ(tagged_places(mesh, tag::kWasInterface), shared);
@@ -78,7 +78,7 @@ TEST(Parts, DoNotDependOnTheNumberOfThreads) {
     TetMesh back;
     run_in_arena(threads, [&] {
       std::vector<Part> parts = extract_parts(mesh, labels, 16);
-      back = stitch_parts(parts, mesh.points.size(), mesh.triangles.size());
+      back = stitched(mesh, parts);
     });
     return back;
   };

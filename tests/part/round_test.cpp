@@ -36,7 +36,7 @@ std::int64_t run_cut(TetMesh& mesh, const SurfaceModel& surface, const Cut& cut)
       changes += run_cycle(part.mesh, surface, settings()).changes;
       expect_sound(part.mesh);
     }
-  mesh = stitch_parts(parts, mesh.points.size(), mesh.triangles.size());
+  mesh = stitched(mesh, parts);
   return changes;
 }
 

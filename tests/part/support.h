@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cavea/mesh/build.h"
+#include "cavea/mesh/compact.h"
 #include "cavea/part/extract.h"
 #include "cavea/surface/features.h"
 #include "cavea/surface/surface_model.h"
@@ -61,6 +62,11 @@ inline std::vector<Cut> cuts_of(const TetMesh& mesh, std::uint64_t seed) {
                    return (c.x > 0.5) + 2 * (c.y > 0.5) + 4 * (c.z > 0.5);
                  }),
        8},
+      // A third is in no part, here and there or on one side.
+      {"idle_at_random",
+       labels_of(mesh, [&](std::size_t, const Vec3&) { return random.below(3) - 1; }), 2},
+      {"idle_slab", labels_of(mesh, [](std::size_t, const Vec3& c) { return int(c.x * 3) - 1; }),
+       2},
       {"empty_parts", labels_of(mesh, [](std::size_t, const Vec3& c) { return c.z < 0.5 ? 1 : 3; }),
        6}};
 }
@@ -91,6 +97,14 @@ inline TetMesh classified(const MeshData& data) {
   for (float& size : mesh.sizes) size = float(random.between(0.1, 0.4));
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     mesh.tet_flags[t] |= std::uint8_t(random.below(8) << 1);  // some of the asks
+  return mesh;
+}
+
+/// The parts in the mesh that they came from, without holes.
+inline TetMesh stitched(TetMesh mesh, std::vector<Part>& parts) {
+  Labels part_of_tet;
+  stitch_parts(mesh, parts, part_of_tet);
+  compact(mesh);
   return mesh;
 }
 
@@ -137,11 +151,12 @@ struct Canonical {
 
 /// Places of the vertices that tets of more than one part have.
 inline std::vector<Place> shared_places(const TetMesh& mesh, const Labels& labels) {
-  Labels seen(mesh.points.size(), kNone);
+  constexpr std::int32_t kUnseen = -3;
+  Labels seen(mesh.points.size(), kUnseen);
   std::vector<char> shared(mesh.points.size(), 0);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     for (const VertexId v : mesh.tets[t]) {
-      if (seen[v] != kNone && seen[v] != labels[t]) shared[v] = 1;
+      if (seen[v] != kUnseen && seen[v] != labels[t]) shared[v] = 1;
       seen[v] = labels[t];
     }
   std::vector<Place> places;
