@@ -56,6 +56,8 @@ Phase polish(const ResolvedOptions& o) {
   p.cycle.limits.quality_ratio = 0.9;
   p.cycle.limits.quality_floor = 0.4;
   p.cycle.sweeps = 4;
+  // In shells of better tets alone, hardly any swap raises the worst by enough.
+  p.cycle.swap_ceiling = 0.8;
   p.cycle.repair_below = 0.45;
   p.cycle.reconnect_below = 0.5;
   p.resize = false;
