@@ -183,7 +183,7 @@ class Run {
   /// Whether most of the volume is new.
   bool seed() {
     if (r_.freeze.insert) return false;
-    constexpr double kMost = 0.1;  // of all vertices
+    constexpr double kMost = 0.5;  // of all vertices
     const SeedingOptions options{budget_.scale() * r_.hmin, budget_.scale() * r_.hmax, r_.hgrad,
                                  budget_.scale(), field_};
     const std::int64_t seeds = seed_interior(mesh_, options, verdicts_);
