@@ -1,5 +1,8 @@
 #include "cavea/remesh/bulk.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/subdivide/subdivide.h"
@@ -9,52 +12,68 @@ namespace cavea {
 namespace {
 
 /// Edges at least this long in the metric are halved: what is left is for splits one by one, which
-/// choose better.
-constexpr double kBulkEdge = 2.0;
-/// A level is worth its cost when this share of the surface triangles would be divided.
+/// choose better. Those inside are left to seeds first, and only longer ones then.
+constexpr double kLongOnSurface = 2.0, kLongAnywhere = 2.6;
+/// A level is worth its cost when this share of the surface triangles, or of the tets, would be
+/// divided.
 constexpr double kWorthwhile = 0.02;
 constexpr int kMostLevels = 16;
 
-bool is_long(const TetMesh& m, VertexId a, VertexId b) {
+bool is_long(const TetMesh& m, VertexId a, VertexId b, double most) {
   const Tag both = Tag(m.vertex_tags[a] & m.vertex_tags[b]);
   if (both & tag::kOnRequiredEdge) return false;
-  return metric_length(distance(m.points[a], m.points[b]), m.sizes[a], m.sizes[b]) > kBulkEdge;
+  return metric_length(distance(m.points[a], m.points[b]), m.sizes[a], m.sizes[b]) > most;
 }
 
 /// Whether the edge opposite corner k of a surface triangle is to be halved.
-bool halved(const TetMesh& m, const Triangle& t, std::size_t k) {
+bool is_long(const TetMesh& m, const Triangle& t, std::size_t k, double most) {
   return !((t.tags | t.edge_tag[k]) & tag::kRequired) &&
-         is_long(m, t.v[(k + 1) % 3], t.v[(k + 2) % 3]);
+         is_long(m, t.v[(k + 1) % 3], t.v[(k + 2) % 3], most);
 }
 
-double share_to_divide(const TetMesh& m) {
+bool has_long_edge(const TetMesh& m, const Triangle& t) {
+  return is_long(m, t, 0, kLongOnSurface) || is_long(m, t, 1, kLongOnSurface) ||
+         is_long(m, t, 2, kLongOnSurface);
+}
+
+bool has_long_edge(const TetMesh& m, const std::array<VertexId, 4>& t) {
+  return std::ranges::any_of(
+      kEdgeVertices, [&](const auto& e) { return is_long(m, t[e[0]], t[e[1]], kLongAnywhere); });
+}
+
+/// Of triangles or tets, those with a long edge.
+template <class Item>
+double share_to_divide(const TetMesh& m, const std::vector<Item>& items) {
+  if (items.empty()) return 0;
   const auto long_ones = parallel_reduce(
-      m.triangles.size(), std::int64_t{0},
+      items.size(), std::int64_t{0},
       [&](std::size_t begin, std::size_t end) {
-        std::int64_t n = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-          const Triangle& t = m.triangles[i];
-          n += halved(m, t, 0) || halved(m, t, 1) || halved(m, t, 2);
-        }
-        return n;
+        return std::int64_t(std::count_if(items.data() + begin, items.data() + end,
+                                          [&](const Item& i) { return has_long_edge(m, i); }));
       },
-      [](std::int64_t a, std::int64_t b) { return a + b; });
-  return m.triangles.empty() ? 0 : double(long_ones) / double(m.triangles.size());
+      std::plus<>{});
+  return double(long_ones) / double(items.size());
+}
+
+bool is_worthwhile(const TetMesh& m, BulkEdges which) {
+  return (which == BulkEdges::kOfSurface ? share_to_divide(m, m.triangles)
+                                         : share_to_divide(m, m.tets)) > kWorthwhile;
 }
 
 }  // namespace
 
-int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface,
+int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, BulkEdges which,
                    const std::function<void()>& resize) {
+  auto halved = [&](const MeshEdge& e) {
+    if (e.triangle != kNone)
+      return is_long(mesh, mesh.triangles[e.triangle], std::size_t(e.side), kLongOnSurface);
+    return which == BulkEdges::kAll && is_long(mesh, e.a, e.b, kLongAnywhere);
+  };
   int level = 0;
-  for (; level < kMostLevels && share_to_divide(mesh) > kWorthwhile; ++level) {
-    mesh = subdivide(
-        mesh,
-        [&](const MeshEdge& e) {
-          return e.triangle != kNone &&
-                 halved(mesh, mesh.triangles[e.triangle], std::size_t(e.side));
-        },
-        [&](const MeshEdge& e) { return midpoint(mesh, surface, e.a, e.b, e.triangle, e.side); });
+  for (; level < kMostLevels && is_worthwhile(mesh, which); ++level) {
+    mesh = subdivide(mesh, halved, [&](const MeshEdge& e) {
+      return midpoint(mesh, surface, e.a, e.b, e.triangle, e.side);
+    });
     resize();
   }
   return level;

@@ -6,9 +6,13 @@
 
 namespace cavea {
 
-/// Pattern subdivision, all at once and level by level, of the surface edges that are much longer
-/// than wanted (paper, section 4.1.1), until few are left; `resize` sets the wanted sizes of a
-/// finer mesh. The volume is left to seed_interior(). \return the number of levels
-int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, const std::function<void()>& resize);
+enum class BulkEdges { kOfSurface, kAll };
+
+/// Pattern subdivision, all at once and level by level, of the edges that are much longer than
+/// wanted (paper, section 4.1.1), until few are left; `resize` sets the wanted sizes of a finer
+/// mesh. Those of the surface if seed_interior() is to fill the volume; all where the body is too
+/// thin for seeds. \return the number of levels
+int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, BulkEdges which,
+                   const std::function<void()>& resize);
 
 }  // namespace cavea

@@ -66,11 +66,7 @@ class Run {
   void operator()() {
     timed("analysis", [&] { analyse(); });
     mends_ = ask_if_it_stands();
-    bool seeded = false;
-    if (!mends_) {
-      timed("bulk", [&] { refine(); });
-      timed("seeding", [&] { seeded = seed(); });
-    }
+    const bool seeded = !mends_ && fill();
     for (const Phase& phase : mends_ ? mending_recipe(r_) : recipe(r_, seeded))
       timed(phase.name, [&] { run_phase(phase); });
     mend_poor();
@@ -175,21 +171,36 @@ class Run {
            double(result.changes) < phase.settled * double(mesh_.tets.size());
   }
 
-  void refine() {
-    if (r_.freeze.insert || r_.freeze.surface) return;
-    refine_in_bulk(mesh_, working_surface(), [&] { resize(); });
+  void refine(BulkEdges which) {
+    if (r_.freeze.surface) return;
+    refine_in_bulk(mesh_, working_surface(), which, [&] { resize(); });
   }
 
-  /// Whether most of the volume is new.
-  bool seed() {
-    if (r_.freeze.insert) return false;
-    constexpr double kMost = 0.5;  // of all vertices
+  std::int64_t seed() {
     const SeedingOptions options{budget_.scale() * r_.hmin, budget_.scale() * r_.hmax, r_.hgrad,
                                  budget_.scale(), field_};
     const std::int64_t seeds = seed_interior(mesh_, options, verdicts_);
     if (sizes_vary_ && seeds > 0) resize();
     trust_good_tets(mesh_);
-    return double(seeds) > kMost * double(mesh_.points.size());
+    return seeds;
+  }
+
+  /// Fills the mesh with vertices by what needs no search for where to put them.
+  /// \return whether most of them are seeds
+  bool fill() {
+    if (r_.freeze.insert) return false;
+    constexpr double kMost = 0.5, kFew = 0.05;  // of all vertices
+    const TetMesh before = mesh_;
+    timed("bulk", [&] { refine(BulkEdges::kOfSurface); });
+    std::int64_t seeds = 0;
+    timed("seeding", [&] { seeds = seed(); });
+    const double share = double(seeds) / double(mesh_.points.size());
+    if (share < kFew && mesh_.points.size() > before.points.size()) {
+      // Too thin for seeds: a fine surface around what is coarse inside is then hard to mend.
+      mesh_ = before;
+      timed("bulk", [&] { refine(BulkEdges::kAll); });
+    }
+    return share > kMost;
   }
 
   /// Whether the input is what is asked for, but for places: then those alone are asked, so that
