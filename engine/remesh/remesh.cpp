@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cavea/base/error.h"
 #include "cavea/base/memory.h"
@@ -153,9 +154,9 @@ class Run {
 
   void resize() {
     budget_.fit(mesh_, [&] {
-      set_wanted_sizes(
-          mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_,
-          {r_.hmin, r_.hmax, r_.local, budget_.scale(), r_.hgrad, r_.hgradreq, r_.freeze.surface});
+      set_wanted_sizes(mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_,
+                       {std::min(r_.hmin, spot_floor_), r_.hmax, r_.local, budget_.scale(),
+                        r_.hgrad, r_.hgradreq, r_.freeze.surface});
     });
   }
 
@@ -242,9 +243,13 @@ class Run {
     if (loose_) loosen();
   }
 
-  /// Repairs make the surface finer, which would break a budget that binds.
+  /// Repairs make the surface finer, which would break a budget that binds. Where the size is to be
+  /// uniform only few places may be, or it is too large for the tolerance.
   bool may_repair() const {
-    return !r_.uniform() && !r_.freeze.insert && !r_.freeze.surface && !budget_.binds();
+    constexpr double kFewPlaces = 0.02;  // of the surface triangles
+    const std::size_t places = distance_.far_facets.size() + distance_.far_triangles.size();
+    const bool few = double(places) < kFewPlaces * double(mesh_.triangles.size());
+    return (few || !r_.uniform()) && !r_.freeze.insert && !r_.freeze.surface && !budget_.binds();
   }
 
   void run_phase(const Phase& phase) {
@@ -295,6 +300,9 @@ class Run {
 
   /// Makes the surface finer where it is too far from the model: what the curvature did not tell.
   void repair() {
+    // The smallest size is a wish, but what bounds a uniform one from below would forbid repairs.
+    constexpr double kFinest = 0.125;
+    spot_floor_ = r_.uniform() ? kFinest * r_.smallest : r_.smallest;
     // The distance goes with the square of the size; a little more for good measure.
     auto factor = [&](const FarSample& f) {
       return std::max(0.5, 0.75 * std::sqrt(kMeasuredShare * f.hausd / f.distance));
@@ -309,7 +317,7 @@ class Run {
         spot.radius = std::max(spot.radius, kReach * distance(f.where, mesh_.points[v]));
         spot.size = std::min(spot.size, double(mesh_.sizes[v]));
       }
-      spot.size *= factor(f);
+      spot.size = std::max(spot.size * factor(f), spot_floor_);
       spots.push_back(spot);
     };
     std::for_each(distance_.far_facets.begin(), distance_.far_facets.end(), add);
@@ -359,6 +367,8 @@ class Run {
   }
 
   SizeField field_;
+  /// No repair asks for less; of no concern before one.
+  double spot_floor_ = std::numeric_limits<double>::infinity();
   const Options& options_;
   Effort effort_;
   bool may_mend_ =

@@ -211,7 +211,7 @@ double SurfaceModel::spot_size(const Vec3& place, double size) const {
     const Spot& s = spots_[std::size_t(spot_tree_->order()[slot])];
     if (distance2(s.place, place) <= s.radius * s.radius) size = std::min(size, s.size);
   });
-  return std::max(size, settings_.hmin);
+  return size;
 }
 
 }  // namespace cavea

@@ -150,5 +150,24 @@ TEST(Fidelity, NearSheetsNeverCross) {
   }
 }
 
+/// A cube with a bump on its top, too narrow for the size.
+TEST(Fidelity, UniformSizesGiveWayInPlaces) {
+  const MeshData data = mapped(kuhn_cube(24), [](const Vec3& p) {
+    const double r2 = (p.x - 0.5) * (p.x - 0.5) + (p.y - 0.5) * (p.y - 0.5);
+    return Vec3{p.x, p.y, p.z * (1 + 0.08 * std::exp(-r2 / 0.005))};
+  });
+  TetMesh mesh = built(data);
+  Options options = uniform(kSanitized ? 0.08 : 0.06);
+  options.hausd = 0.003;
+  const Report report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  EXPECT_LE(report.surface_distance, report.hausd);
+  EXPECT_GT(report.after.lengths.conforming_percent(), 95);
+  const auto smaller =
+      std::ranges::count_if(mesh.sizes, [&](float h) { return h < 0.999F * float(*options.hsiz); });
+  EXPECT_GT(smaller, 0) << "nothing had to give way";
+  EXPECT_LT(double(smaller), 0.2 * double(mesh.sizes.size()));
+}
+
 }  // namespace
 }  // namespace cavea::test
