@@ -82,7 +82,7 @@ class SurfaceModel {
     Vec3 place;
     double radius = 0, size = 0;
   };
-  /// Bounds the wanted sizes by those of the spots, too; not while others read.
+  /// Bounds the wanted sizes by those of the spots, too, be they below hmin; not while others read.
   void add_spots(const std::vector<Spot>& spots);
 
   static std::int32_t curve_anchor(std::int32_t edge) { return -2 - edge; }
