@@ -240,6 +240,7 @@ class Run {
     constexpr double kTrusted = 0.9;  // so that what lies between samples is within, too
     r_.max_bulge = std::min(r_.max_bulge, kTrusted * r_.hausd);
     take_model(surface_, 1);
+    meter_.reset();
     if (loose_) loosen();
   }
 
@@ -285,12 +286,14 @@ class Run {
     return round <= phase.rounds + phase.budget_rounds && !budget_.met(mesh_);
   }
 
-  SurfaceDistance measure_distance() const {
+  SurfaceDistance measure_distance() {
     // A triangle that is so near at seven samples is not beyond the tolerance at others: bumps of
     // the model below it are sampled from their own side.
     constexpr double kNear = 0.5;
-    return measure_surface_distance(mesh_, *surface_, default_sample_step(mesh_, *surface_),
-                                    kMeasuredShare, kNear);
+    if (!meter_)
+      meter_.emplace(*surface_, DistanceSampling{default_sample_step(mesh_, *surface_),
+                                                 kMeasuredShare, kNear});
+    return meter_->measure(mesh_);
   }
 
   void finish() {
@@ -378,6 +381,7 @@ class Run {
   ResolvedOptions r_;
   bool sizes_vary_ = true;  ///< over space, so that new vertices want theirs set anew
   std::optional<SurfaceModel> surface_, loose_;
+  std::optional<DistanceMeter> meter_;  ///< from surface_
   SurfaceDistance distance_;
   VerdictTable verdicts_;
   Budget budget_;

@@ -1,6 +1,7 @@
 #include "cavea/surface/distance.h"
 
 #include <cmath>
+#include <tuple>
 
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/closest.h"
@@ -55,28 +56,23 @@ struct Sampled {
   }
 };
 
-/// How closely triangles are sampled: see measure_surface_distance().
-struct Sampling {
-  double step, enough = 0;
+int intervals(const Corners& k, double step) {
+  const double wanted = std::ceil(std::sqrt(longest_edge2(k)) / step);
+  return int(std::clamp<double>(wanted, kMinIntervals, kMaxIntervals));
+}
 
-  int intervals(const Corners& k) const {
-    const double wanted = std::ceil(std::sqrt(longest_edge2(k)) / step);
-    return int(std::clamp<double>(wanted, kMinIntervals, kMaxIntervals));
-  }
-};
-
-/// Samples triangles: distance_from() makes a function of the sample x for each triangle in turn,
-/// so that a search may begin where it ended for the sample before. Never where another triangle's
-/// ended: which one that is depends on the threads.
+/// Samples those triangles that have no samples yet: distance_from() makes a function of the sample
+/// x for each triangle in turn, so that a search may begin where it ended for the sample before.
+/// Never where another triangle's ended: which one that is depends on the threads.
 template <class At, class DistanceFrom>
-std::vector<Sampled> sample_all(std::span<const Corners> triangles, const Sampling& sampling,
-                                At&& at, DistanceFrom&& distance_from) {
-  std::vector<Sampled> samples(triangles.size());
+void sample_all(std::span<const Corners> triangles, const DistanceSampling& sampling, At&& at,
+                DistanceFrom&& distance_from, std::vector<Sampled>& samples) {
   parallel_for(
       triangles.size(),
       [&](std::size_t t) {
         const Corners& k = triangles[t];
         Sampled& s = samples[t];
+        if (s.count > 0) return;
         auto distance = distance_from(t);
         auto sample = [&](int n) {
           s = {};
@@ -85,13 +81,12 @@ std::vector<Sampled> sample_all(std::span<const Corners> triangles, const Sampli
             s.add(x, distance(x));
           });
         };
-        const int n = sampling.intervals(k);
+        const int n = intervals(k, sampling.step);
         if (n > kMinIntervals && sampling.enough > 0) sample(kMinIntervals);
         if (s.count == 0 || s.worst > sampling.enough) sample(n);
         s.area = norm(cross(k[1] - k[0], k[2] - k[0])) / 2;
       },
       kGrain);
-  return samples;
 }
 
 OneSidedDistance fold(const std::vector<Sampled>& samples) {
@@ -118,11 +113,12 @@ std::vector<FarSample> beyond(const std::vector<Sampled>& samples, double most, 
   return far;
 }
 
-/// The mesh's surface triangles, without holes.
+/// A mesh's surface triangles, without holes.
 struct OutputSurface {
   std::vector<TriangleId> ids;
   std::vector<Corners> corners;
 
+  OutputSurface() = default;
   explicit OutputSurface(const TetMesh& mesh) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Triangle& s = mesh.triangles[t];
@@ -144,10 +140,9 @@ Vec3 on_flat(const Corners& t, double u, double v) {
   return (1 - u - v) * t[0] + u * t[1] + v * t[2];
 }
 
-std::vector<Sampled> sample_output(const OutputSurface& out, const SurfaceModel& model,
-                                   const Sampling& sampling) {
-  const PatchTree tree(model);
-  return sample_all(
+void sample_output(const OutputSurface& out, const SurfaceModel& model, const PatchTree& tree,
+                   const DistanceSampling& sampling, std::vector<Sampled>& samples) {
+  sample_all(
       out.corners, sampling,
       [&](std::size_t t, double u, double v) { return on_flat(out.corners[t], u, v); },
       [&](std::size_t t) {
@@ -156,31 +151,81 @@ std::vector<Sampled> sample_output(const OutputSurface& out, const SurfaceModel&
           const double hausd = last.facet == kNone ? 1 : model.hausd(last.facet);
           return Measured{std::sqrt(last.place.distance2), hausd, std::int32_t(t)};
         };
-      });
+      },
+      samples);
 }
 
-/// The samples of the model's patches, measured by distance_from as in sample_all().
-template <class DistanceFrom>
-std::vector<Sampled> sample_model(const SurfaceModel& model, std::span<const Corners> facets,
-                                  const Sampling& sampling, DistanceFrom&& distance_from) {
-  return sample_all(
+void sample_model(const OutputSurface& out, const SurfaceModel& model,
+                  std::span<const Corners> facets, const DistanceSampling& sampling,
+                  std::vector<Sampled>& samples) {
+  const FacetTree tree(out.corners);
+  sample_all(
       facets, sampling,
       [&](std::size_t f, double u, double v) {
         return model.patch_of_facet(std::int32_t(f)).at(u, v);
       },
-      distance_from);
+      [&](std::size_t f) {
+        const double hausd = model.hausd(std::int32_t(f));
+        return [&tree, hausd, last = NearestFacet{}](const Vec3& x) mutable {
+          last = tree.nearest_from(x, last);
+          return Measured{std::sqrt(last.distance2), hausd, last.facet};
+        };
+      },
+      samples);
 }
 
-std::vector<Sampled> sample_model_from(const OutputSurface& out, const SurfaceModel& model,
-                                       const Sampling& sampling) {
-  const FacetTree tree(out.corners);
-  return sample_model(model, facets_of(model), sampling, [&](std::size_t f) {
-    const double hausd = model.hausd(std::int32_t(f));
-    return [&tree, hausd, last = NearestFacet{}](const Vec3& x) mutable {
-      last = tree.nearest_from(x, last);
-      return Measured{std::sqrt(last.distance2), hausd, last.facet};
-    };
-  });
+bool is_before(const Corners& a, const Corners& b) {
+  auto key = [](const Corners& t) {
+    return std::tie(t[0].x, t[0].y, t[0].z, t[1].x, t[1].y, t[1].z, t[2].x, t[2].y, t[2].z);
+  };
+  return key(a) < key(b);
+}
+
+/// What became of triangles between two surfaces.
+struct Changes {
+  std::vector<std::int32_t> before_of;  ///< for each one after: the same one before, or none
+  std::vector<std::int32_t> after_of;   ///< for each one before
+  std::vector<Box> boxes;               ///< of those of one surface alone
+
+  Changes(std::span<const Corners> before, std::span<const Corners> after)
+      : before_of(after.size(), kNone), after_of(before.size(), kNone) {
+    std::vector<std::int32_t> sorted(before.size());
+    parallel_for(sorted.size(), [&](std::size_t i) { sorted[i] = std::int32_t(i); });
+    parallel_sort(sorted.begin(), sorted.end(), [&](std::int32_t a, std::int32_t b) {
+      if (is_before(before[a], before[b])) return true;
+      return !is_before(before[b], before[a]) && a < b;
+    });
+    parallel_for(after.size(), [&](std::size_t i) {
+      const auto at = std::lower_bound(
+          sorted.begin(), sorted.end(), after[i],
+          [&](std::int32_t b, const Corners& t) { return is_before(before[b], t); });
+      if (at != sorted.end() && !is_before(after[i], before[*at])) before_of[i] = *at;
+    });
+    for (std::size_t i = 0; i < after.size(); ++i)
+      if (before_of[i] != kNone) after_of[before_of[i]] = std::int32_t(i);
+    add_boxes(before, after_of);
+    add_boxes(after, before_of);
+  }
+
+ private:
+  void add_boxes(std::span<const Corners> triangles, const std::vector<std::int32_t>& other) {
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      if (other[i] != kNone) continue;
+      Box& box = boxes.emplace_back();
+      for (const Vec3& p : triangles[i]) box.add(p);
+    }
+  }
+};
+
+/// Where the other surface may have what is nearest to a sample of the facet's patch.
+Box reach_of(const BezierTriangle& patch, double farthest) {
+  Box box;  // a Bezier triangle is within the hull of its control points
+  for (const Vec3& p : patch.corner) box.add(p);
+  for (const auto& points : patch.edge)
+    for (const Vec3& p : points) box.add(p);
+  box.add(patch.center);
+  const Vec3 reach{farthest, farthest, farthest};
+  return {box.low - reach, box.high + reach};
 }
 
 }  // namespace
@@ -208,20 +253,61 @@ double measure_bulge(const SurfaceModel& model) {
   return facets.empty() ? 0 : std::sqrt(*std::max_element(bulge2.begin(), bulge2.end()));
 }
 
+struct DistanceMeter::Memory {
+  Memory(const SurfaceModel& m, const DistanceSampling& s)
+      : model(m), sampling(s), tree(m), facets(facets_of(m)), of_model(facets.size()) {}
+
+  void forget_what_changed(const OutputSurface& now) {
+    const Changes changes(out.corners, now.corners);
+    std::vector<Sampled> kept(now.corners.size());
+    parallel_for(kept.size(), [&](std::size_t t) {
+      if (changes.before_of[t] == kNone) return;
+      kept[t] = of_out[std::size_t(changes.before_of[t])];
+      kept[t].triangle = std::int32_t(t);
+    });
+    of_out = std::move(kept);
+    const BoxTree changed(changes.boxes);
+    parallel_for(of_model.size(), [&](std::size_t f) {
+      Sampled& s = of_model[f];
+      if (s.triangle != kNone) s.triangle = changes.after_of[std::size_t(s.triangle)];
+      if (s.triangle == kNone) s.count = 0;
+      changed.visit_overlapping(reach_of(model.patch_of_facet(std::int32_t(f)), s.max),
+                                [&](std::size_t) { s.count = 0; });
+    });
+    out = now;
+  }
+
+  const SurfaceModel& model;
+  DistanceSampling sampling;
+  PatchTree tree;
+  std::vector<Corners> facets;
+  OutputSurface out;
+  std::vector<Sampled> of_out, of_model;
+};
+
+DistanceMeter::DistanceMeter(const SurfaceModel& model, const DistanceSampling& sampling)
+    : memory_(std::make_unique<Memory>(model, sampling)) {}
+
+DistanceMeter::~DistanceMeter() = default;
+
+SurfaceDistance DistanceMeter::measure(const TetMesh& mesh) {
+  Memory& m = *memory_;
+  m.forget_what_changed(OutputSurface(mesh));
+  sample_output(m.out, m.model, m.tree, m.sampling, m.of_out);
+  sample_model(m.out, m.model, m.facets, m.sampling, m.of_model);
+  SurfaceDistance result;
+  result.out_to_model = fold(m.of_out);
+  result.far_triangles = beyond(
+      m.of_out, m.sampling.most, [&](std::size_t i) { return m.out.ids[i]; }, m.out.ids);
+  result.model_to_out = fold(m.of_model);
+  result.far_facets = beyond(
+      m.of_model, m.sampling.most, [](std::size_t i) { return std::int32_t(i); }, m.out.ids);
+  return result;
+}
+
 SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel& model,
                                          double step, double most, double enough) {
-  const OutputSurface out(mesh);
-  const Sampling sampling{step, enough};
-  SurfaceDistance result;
-  const std::vector<Sampled> of_out = sample_output(out, model, sampling);
-  result.out_to_model = fold(of_out);
-  result.far_triangles = beyond(
-      of_out, most, [&](std::size_t i) { return out.ids[i]; }, out.ids);
-  const std::vector<Sampled> of_model = sample_model_from(out, model, sampling);
-  result.model_to_out = fold(of_model);
-  result.far_facets = beyond(
-      of_model, most, [](std::size_t i) { return std::int32_t(i); }, out.ids);
-  return result;
+  return DistanceMeter(model, {step, most, enough}).measure(mesh);
 }
 
 double default_sample_step(const TetMesh& mesh, const SurfaceModel& model) {

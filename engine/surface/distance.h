@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "cavea/mesh/tet_mesh.h"
@@ -37,6 +38,29 @@ struct SurfaceDistance {
   const OneSidedDistance& worse() const {
     return out_to_model.worst > model_to_out.worst ? out_to_model : model_to_out;
   }
+};
+
+/// How closely surfaces are sampled, and which samples are listed: see measure_surface_distance().
+struct DistanceSampling {
+  double step;
+  double most = std::numeric_limits<double>::infinity();
+  double enough = 0;
+};
+
+/// Measures the distances of a mesh that changes from a model that does not: what has not changed
+/// since the last mesh, nor is near anything that has, is not sampled again. What it says is what
+/// measure_surface_distance() says of the last mesh alone.
+class DistanceMeter {
+ public:
+  /// \param model must outlive the meter
+  DistanceMeter(const SurfaceModel& model, const DistanceSampling& sampling);
+  ~DistanceMeter();
+
+  SurfaceDistance measure(const TetMesh& mesh);
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
 };
 
 /// Measures the Hausdorff distance on samples: each triangle, and each patch over its facet, on a

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <random>
 
 #include "cavea/base/parallel.h"
 #include "cavea/surface/facet_tree.h"
@@ -171,6 +173,46 @@ TEST(SurfaceDistance, SamplesMoreOnlyWhereItIsNotNear) {
   const SurfaceDistance few = measure_surface_distance(other, ball.model, kStep, none, none);
   EXPECT_LE(few.max(), all.max());
   EXPECT_GE(few.max(), 0.8 * all.max());
+}
+
+void expect_same(const OneSidedDistance& a, const OneSidedDistance& b) {
+  EXPECT_DOUBLE_EQ(a.max, b.max);
+  EXPECT_DOUBLE_EQ(a.mean, b.mean);
+  EXPECT_DOUBLE_EQ(a.worst, b.worst);
+  EXPECT_EQ(a.hausd, b.hausd);
+}
+
+void expect_same(const std::vector<FarSample>& a, const std::vector<FarSample>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].id, b[i].id);
+    EXPECT_DOUBLE_EQ(a[i].distance, b[i].distance);
+  }
+}
+
+TEST(DistanceMeter, SaysOfEachMeshWhatIsSaidOfItAlone) {
+  const auto ball = modelled_ball(6);
+  const DistanceSampling sampling{kStep, 0.5, 0.2};
+  constexpr unsigned kSeed = 11;
+  SCOPED_TRACE(kSeed);
+  std::mt19937 random(kSeed);
+  std::uniform_real_distribution<double> pull(0.9, 1.05);
+  TetMesh mesh = modelled_ball(9).mesh;
+  DistanceMeter meter(ball.model, sampling);
+  for (int step = 0; step < 12; ++step) {
+    for (int k = 0; k < 3; ++k) mesh.points[random() % mesh.points.size()] *= pull(random);
+    if (step % 3 == 2) mesh.triangles.erase(mesh.triangles.begin() + random() % 20);
+    if (step == 6) std::ranges::shuffle(mesh.triangles, random);
+    const SurfaceDistance now = meter.measure(mesh);
+    const SurfaceDistance alone =
+        measure_surface_distance(mesh, ball.model, sampling.step, sampling.most, sampling.enough);
+    expect_same(now.out_to_model, alone.out_to_model);
+    expect_same(now.model_to_out, alone.model_to_out);
+    expect_same(now.far_triangles, alone.far_triangles);
+    expect_same(now.far_facets, alone.far_facets);
+  }
+  mesh.triangles.clear();
+  EXPECT_EQ(meter.measure(mesh).model_to_out.max, std::numeric_limits<double>::infinity());
 }
 
 std::vector<std::uint64_t> bits(const SurfaceDistance& d) {
