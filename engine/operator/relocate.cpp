@@ -263,7 +263,7 @@ Verdict relocate(OperatorContext& c, VertexId v, NewVertex& to) {
 Verdict shake(OperatorContext& c, VertexId v, double below, double floor, NewVertex& to) {
   constexpr double kStep = 0.2;  // of the wanted size
   const Tag tags = c.tags(v);
-  if (tags & (tag::kFrozen | tag::kSurface | tag::kRequired)) return Verdict::kFrozen;
+  if (tags & (tag::kFrozen | tag::kSurface | tag::kCorner | tag::kRequired)) return Verdict::kFrozen;
   gather_ball(c.mesh, v, c.marker, c.ball);
   if (c.ball.cut) return Verdict::kFrozen;
   if (now(c).sum > below * double(c.ball.tets.size())) return Verdict::kNotNeeded;

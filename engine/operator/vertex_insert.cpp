@@ -14,7 +14,7 @@ constexpr int kMostSteps = 200;
 constexpr int kMostShrinks = 20;
 
 /// A vertex nearer to another one than this, in wanted sizes, would only be collapsed.
-constexpr double kNearest = 0.65;
+constexpr double kNearest = 0.7;
 /// The same for its height above a surface triangle.
 constexpr double kLowest = 0.4;
 

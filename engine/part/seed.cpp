@@ -15,7 +15,7 @@ namespace {
 /// Points are wanted where their lattice's cells are at least this many wanted sizes.
 constexpr double kFinestCell = 0.75;
 /// As in VertexInsert: nothing comes nearer to a vertex.
-constexpr double kNearest = 0.65;
+constexpr double kNearest = 0.7;
 
 /// Edge of a block and what it may reach beyond, in cells. Blocks of one colour are a block apart,
 /// so that reaches are disjoint; a cavity between points of the coarser level reaches 2.3 cells.

@@ -68,11 +68,21 @@ Phase polish(const ResolvedOptions& o) {
 
 }  // namespace
 
+Phase thinning(const ResolvedOptions& o) {
+  Phase p = rough(o);
+  p.name = "thinning";
+  p.cycle.sweeps = 3;
+  p.cycle.insert = p.cycle.move = false;
+  p.cycle.limits.short_edge = 0.6;
+  p.cycle.repair_below = 0;
+  return p;
+}
+
 std::vector<Phase> mending_recipe(const ResolvedOptions& o) {
   Phase adapt = fine(o), finish = polish(o);
   adapt.rounds = 2;
   adapt.ask = 0;
-  adapt.local = true;
+  adapt.resize = false;  // lest all be asked for sizes that are a little other
   adapt.cycle.shake_below = 0;
   finish.rounds = 1;
   // What is asked is little of the whole, and is to be mended to the end.
@@ -80,10 +90,21 @@ std::vector<Phase> mending_recipe(const ResolvedOptions& o) {
   return {adapt, finish};
 }
 
-std::vector<Phase> recipe(const ResolvedOptions& o, bool seeded) {
-  if (!seeded) return {rough(o), fine(o), polish(o)};
+std::vector<Phase> poor_recipe(const ResolvedOptions& o) {
+  Phase loose = rough(o);
+  loose.rounds = 1;
+  loose.resize = false;
+  loose.settled = loose.cycle.settled = 0;
+  loose.cycle.repair_below = 0.2;
+  std::vector<Phase> phases = mending_recipe(o);
+  phases.insert(phases.begin(), loose);
+  return phases;
+}
+
+std::vector<Phase> recipe(const ResolvedOptions& o, bool filled) {
+  if (!filled) return {rough(o), fine(o), polish(o)};
   Phase first = fine(o);
-  first.ask = 0;  // no phase with other limits came before
+  first.ask = 0;  // all are asked, but those that are trusted
   return {first, polish(o)};
 }
 

@@ -18,22 +18,27 @@ struct Phase {
   /// Asked of all tets again at the start, because this phase's limits differ from those before.
   std::uint8_t ask = 0;
   bool resize = true;  ///< sets the wanted sizes anew before each round
-  /// Asks for lengths again only where the wanted sizes have changed, not everywhere.
-  bool local = false;
   /// More rounds than `rounds` while the number of tets is not the budget's; after each round it
   /// tells what sizes come to.
   int budget_rounds = 0;
 };
 
 /// The phases of section 4.3: rough sampling of the surface, rough and fine adaptation to the
-/// sizes, and a last polish of quality. Where most of the volume is `seeded` in the wanted sizes,
-/// nothing is rough.
-std::vector<Phase> recipe(const ResolvedOptions& options, bool seeded);
+/// sizes, and a last polish of quality. Nothing is rough in a mesh that is thinned and `filled`
+/// with seeds.
+std::vector<Phase> recipe(const ResolvedOptions& options, bool filled);
+
+/// The phase before seeds: collapses what is far too fine, so that they find room, and swaps what
+/// is flat.
+Phase thinning(const ResolvedOptions& options);
 
 /// The last phase, which offers everything to poor tets.
 Phase last_phase(const ResolvedOptions& options);
 
 /// The phases that mend an almost finished mesh in the places that are asked.
 std::vector<Phase> mending_recipe(const ResolvedOptions& options);
+
+/// The same for poor tets that the limits of those phases hold fast: rough ones come first.
+std::vector<Phase> poor_recipe(const ResolvedOptions& options);
 
 }  // namespace cavea

@@ -67,8 +67,8 @@ class Run {
   void operator()() {
     timed("analysis", [&] { analyse(); });
     mends_ = ask_if_it_stands();
-    const bool seeded = !mends_ && fill();
-    for (const Phase& phase : mends_ ? mending_recipe(r_) : recipe(r_, seeded))
+    const bool filled = !mends_ && fill();
+    for (const Phase& phase : mends_ ? mending_recipe(r_) : recipe(r_, filled))
       timed(phase.name, [&] { run_phase(phase); });
     mend_poor();
     finish();
@@ -182,26 +182,28 @@ class Run {
                                  budget_.scale(), field_};
     const std::int64_t seeds = seed_interior(mesh_, options, verdicts_);
     if (sizes_vary_ && seeds > 0) resize();
+    for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
     trust_good_tets(mesh_);
     return seeds;
   }
 
-  /// Fills the mesh with vertices by what needs no search for where to put them.
-  /// \return whether most of them are seeds
+  /// Brings the mesh near the wanted sizes by what needs no search for where to put vertices.
+  /// \return whether seeds found room in it
   bool fill() {
     if (r_.freeze.insert) return false;
-    constexpr double kMost = 0.5, kFew = 0.05;  // of all vertices
+    constexpr double kFew = 0.05;  // of all vertices
     const TetMesh before = mesh_;
     timed("bulk", [&] { refine(BulkEdges::kOfSurface); });
+    const bool divided = mesh_.points.size() > before.points.size();
+    const Phase thin = thinning(r_);
+    timed(thin.name, [&] { run_phase(thin); });
     std::int64_t seeds = 0;
     timed("seeding", [&] { seeds = seed(); });
-    const double share = double(seeds) / double(mesh_.points.size());
-    if (share < kFew && mesh_.points.size() > before.points.size()) {
-      // Too thin for seeds: a fine surface around what is coarse inside is then hard to mend.
-      mesh_ = before;
-      timed("bulk", [&] { refine(BulkEdges::kAll); });
-    }
-    return share > kMost;
+    if (!divided || double(seeds) >= kFew * double(mesh_.points.size())) return true;
+    // Too thin for seeds: a fine surface around what is coarse inside is then hard to mend.
+    mesh_ = before;
+    timed("bulk", [&] { refine(BulkEdges::kAll); });
+    return false;
   }
 
   /// Whether the input is what is asked for, but for places: then those alone are asked, so that
@@ -226,7 +228,7 @@ class Run {
       ask_nothing(mesh_);
       ask_poor(mesh_);
       timed("mending", [&] {
-        for (const Phase& phase : mending_recipe(r_)) run_phase(phase);
+        for (const Phase& phase : poor_recipe(r_)) run_phase(phase);
       });
       const std::int64_t left = count_poor(mesh_);
       if (double(left) > kMended * double(poor)) break;
@@ -259,7 +261,7 @@ class Run {
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= phase.ask;
     for (int round = 1; round <= phase.rounds || more_for_budget(phase, round); ++round) {
       tell(phase.name, round);
-      if (phase.resize && round > 1 && sizes_vary_) resize_and_ask(phase.local);
+      if (phase.resize && round > 1 && sizes_vary_) resize(), ask_lengths(mesh_);
       if (report_.part_of_tet.size() == mesh_.tets.size() && is_nothing_asked(mesh_)) break;
       if (phase.growth > 0)
         settings.most_tets = std::int64_t(phase.growth * double(mesh_.tets.size()) /
@@ -271,15 +273,6 @@ class Run {
       if (phase.budget_rounds > 0) budget_.learn(mesh_);
       if (settled(phase, result.cycle)) break;
     }
-  }
-
-  void resize_and_ask(bool only_where_changed) {
-    const std::vector<float> before = mesh_.sizes;
-    resize();
-    if (only_where_changed)
-      ask_changed_lengths(mesh_, before);
-    else
-      ask_lengths(mesh_);
   }
 
   bool more_for_budget(const Phase& phase, int round) const {
@@ -325,9 +318,23 @@ class Run {
     };
     std::for_each(distance_.far_facets.begin(), distance_.far_facets.end(), add);
     std::for_each(distance_.far_triangles.begin(), distance_.far_triangles.end(), add);
-    surface_->add_spots(spots);
-    resize_and_ask(true);
+    resize_for(spots);
     for (const Phase& phase : mending_recipe(r_)) run_phase(phase);
+  }
+
+  /// Vertices have moved since their sizes were set, so that all would change a little: only what
+  /// is the spots' doing is to.
+  void resize_for(const std::vector<SurfaceModel::Spot>& spots) {
+    const std::vector<float> kept = mesh_.sizes;
+    resize();
+    const std::vector<float> without = mesh_.sizes;
+    surface_->add_spots(spots);
+    resize();
+    parallel_for(kept.size(), [&](std::size_t v) {
+      if (mesh_.sizes[v] == without[v]) mesh_.sizes[v] = kept[v];
+    });
+    ask_nothing(mesh_);
+    ask_changed_lengths(mesh_, kept);
   }
 
   void measure() {
