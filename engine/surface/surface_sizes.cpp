@@ -14,8 +14,9 @@ namespace {
 /// long and one along at most 1.4, so that one layer of good tets fits.
 constexpr double kThickness = 1.4;
 /// The same for strips between two feature curves and for short curves, where no edge but one that
-/// follows them fits.
-constexpr double kWidth = 1.2;
+/// follows them fits. Smaller would be better (0.7 raises the mean quality of a gear's teeth from
+/// 0.76 to 0.78), but triples their tets, and the rim of a thin plate wants no more than the plate.
+constexpr double kWidth = 1.0;
 /// Cosine of 15 degrees: sheets and curves side by side within that angle bound a layer or a strip.
 /// Where they run together in a sharper wedge, finer tets would be no better.
 constexpr double kParallel = 0.966;
