@@ -13,10 +13,11 @@ CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
     if (settings.insert) changes += split_pass(state);
     if (settings.collapse) changes += collapse_pass(state);
     if (sweep == 0 && settings.move && settings.shake_below > 0) shake_pass(state);
+    state.last_resorts = sweep > 0;
     changes += quality_pass(state);
     if (settings.move) changes += move_pass(state);
-    if (double(changes) <= settings.settled * double(state.editor.living_tets()) || state.result.full)
-      break;
+    const bool settled = double(changes) <= settings.settled * double(state.editor.living_tets());
+    if ((settled && state.last_resorts) || state.result.full) break;
   }
   return state.result;
 }

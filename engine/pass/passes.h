@@ -25,6 +25,8 @@ struct PartState {
   CycleSettings settings;
   Cavity cavity;
   CycleResult result;
+  /// Whether bad tets are offered more than swaps: many are good again after the first sweep.
+  bool last_resorts = false;
 };
 
 /// Each returns the number of accepted operations.

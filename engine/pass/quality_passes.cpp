@@ -71,6 +71,10 @@ class QualityQueue {
     if (s_.settings.swap && swap(t, quality)) return;
     asked_[t] = clock_;
     const bool bad = quality < s_.settings.repair_below;
+    if (bad && !s_.last_resorts) {
+      m_.tet_flags[t] |= tet_flag::kAskSwap;
+      return;
+    }
     if (bad && s_.settings.collapse && collapse_for_quality(t)) return;
     const bool poor = quality < s_.settings.reconnect_below;
     if (poor && s_.settings.swap && reconnect_for_quality(t)) return;
