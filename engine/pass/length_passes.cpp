@@ -15,9 +15,12 @@ struct EdgeTask {
   TetId tet;
 };
 
+enum class Outcome { kDone, kRefused, kGone };
+
 void sort_tasks(std::vector<EdgeTask>& tasks) {
   std::sort(tasks.begin(), tasks.end(), [](const EdgeTask& x, const EdgeTask& y) {
-    return std::tuple(-x.urgency, x.a, x.b, x.tet) < std::tuple(-y.urgency, y.a, y.b, y.tet);
+    if (x.urgency != y.urgency) return x.urgency > y.urgency;
+    return std::tie(x.a, x.b, x.tet) < std::tie(y.a, y.b, y.tet);
   });
 }
 
@@ -100,53 +103,61 @@ bool find_edge(PartState& s, const EdgeTask& task, VertexId p, VertexId q) {
   return true;
 }
 
-/// Calls work(task) for each task whose edge still stands, once an edge unless it is refused for a
-/// tet that has changed since.
+/// Calls work(task) for each task, once an edge unless it is refused for a tet that has changed
+/// since.
 template <class F>
-std::int64_t for_each_task(PartState& s, const std::vector<EdgeTask>& tasks, F&& work) {
+std::int64_t for_each_task(const std::vector<EdgeTask>& tasks, F&& work) {
   std::int64_t done = 0;
   VertexId last_a = kNone, last_b = kNone;
   for (const EdgeTask& task : tasks) {
     if (task.a == last_a && task.b == last_b) continue;
-    if (!find_edge(s, task, task.a, task.b)) continue;
+    const Outcome outcome = work(task);
+    if (outcome == Outcome::kGone) continue;
     last_a = task.a, last_b = task.b;
-    done += work(task);
+    done += outcome == Outcome::kDone;
   }
   return done;
+}
+
+/// Collapses p onto q, or else says why not.
+Outcome collapse(PartState& s, const EdgeTask& task, VertexId p, VertexId q) {
+  if (!s.mesh().tet_alive(task.tet)) return Outcome::kGone;
+  Verdict v = Verdict::kFrozen;
+  // Most of what is asked is near interfaces: no need to look at more of the mesh.
+  if (!(s.context.tags(p) & tag::kFrozen)) {
+    if (!find_edge(s, task, p, q)) return Outcome::kGone;
+    v = edge_collapse(s.context, false, s.cavity);
+  }
+  if (v == Verdict::kFrozen) s.mesh().tet_flags[task.tet] |= tet_flag::kAskLater;
+  if (!s.count(Operator::kEdgeCollapse, v)) return Outcome::kRefused;
+  s.commit();
+  return Outcome::kDone;
 }
 
 }  // namespace
 
 std::int64_t split_pass(PartState& s) {
-  const std::vector<EdgeTask> tasks = split_tasks(s);
-  return for_each_task(s, tasks, [&](const EdgeTask& task) {
+  return for_each_task(split_tasks(s), [&](const EdgeTask& task) {
+    if (!find_edge(s, task, task.a, task.b)) return Outcome::kGone;
     if (s.editor.living_tets() >= s.settings.most_tets) {
       s.result.full = true;
       s.mesh().tet_flags[task.tet] |= tet_flag::kAskLater;
-      return false;
+      return Outcome::kRefused;
     }
     const Verdict v = edge_split(s.context, s.editor.next_vertex(), s.cavity);
     if (v == Verdict::kFrozen) s.mesh().tet_flags[task.tet] |= tet_flag::kAskLater;
-    if (!s.count(Operator::kEdgeSplit, v)) return false;
+    if (!s.count(Operator::kEdgeSplit, v)) return Outcome::kRefused;
     s.commit();
-    return true;
+    return Outcome::kDone;
   });
 }
 
 std::int64_t collapse_pass(PartState& s) {
   const std::vector<EdgeTask> tasks = collapse_tasks(s);
   for (std::uint8_t& flags : s.mesh().tet_flags) flags &= std::uint8_t(~tet_flag::kAskLength);
-  return for_each_task(s, tasks, [&](const EdgeTask& task) {
-    for (int way = 0; way < 2; ++way) {
-      if (way == 1) find_edge(s, task, task.b, task.a);
-      const Verdict v = edge_collapse(s.context, false, s.cavity);
-      if (v == Verdict::kFrozen) s.mesh().tet_flags[task.tet] |= tet_flag::kAskLater;
-      if (s.count(Operator::kEdgeCollapse, v)) {
-        s.commit();
-        return true;
-      }
-    }
-    return false;
+  return for_each_task(tasks, [&](const EdgeTask& task) {
+    const Outcome outcome = collapse(s, task, task.a, task.b);
+    return outcome == Outcome::kRefused ? collapse(s, task, task.b, task.a) : outcome;
   });
 }
 
