@@ -70,7 +70,9 @@ class Choice {
   }
 
   bool is_required(const Shell& shell) const {
-    if (mesh_.vertex_tags[shell.p] & mesh_.vertex_tags[shell.q] & tag::kOnRequiredEdge) return true;
+    // Of the tets at an edge in which the volume touches itself, the shell has only some.
+    constexpr Tag kStays = tag::kOnRequiredEdge | tag::kPinched;
+    if (mesh_.vertex_tags[shell.p] & mesh_.vertex_tags[shell.q] & kStays) return true;
     if (std::ranges::any_of(
             shell.tets, [&](TetId t) { return (mesh_.tet_flags[t] & tet_flag::kRequired) != 0; }))
       return true;

@@ -16,7 +16,8 @@ struct Bisection {
 
 /// The edges to bisect so that the wanted tets are divided as soon as can be: the longest edge of a
 /// tet, or, where it is not that of another tet at it, the longest one of that tet, and so on
-/// (Rivara 1984). Edges that are required, or are of a required tet, are never among them.
+/// (Rivara 1984). Edges that are required, of a required tet, or between vertices in which the
+/// volume touches itself are never among them.
 Bisection choose_longest_edges(const TetMesh& mesh, std::vector<char> wanted);
 
 /// The place in kEdgeVertices of a tet's longest edge; of equal ones that of the largest vertices.

@@ -7,10 +7,10 @@
 #include "cavea/base/buckets.h"
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/box_tree.h"
+#include "cavea/implicit/bisect.h"
 #include "cavea/implicit/facet.h"
 #include "cavea/implicit/longest_edges.h"
 #include "cavea/mesh/local.h"
-#include "cavea/subdivide/subdivide.h"
 
 namespace cavea {
 namespace {
@@ -42,7 +42,7 @@ class Refinement {
       parallel_for(wanted.size(), [&](std::size_t t) { wanted[t] = states_[t] == State::kDivide; });
       const Bisection bisection = choose_longest_edges(mesh_, std::move(wanted));
       if (bisection.edges.empty()) return pass;
-      bisect(bisection);
+      divide(bisection);
     }
     return kMostPasses;
   }
@@ -83,7 +83,8 @@ class Refinement {
 
   void judge() {
     const Buckets zeros_of_tet(zeros_.size(), mesh_.tets.size(), [&](std::size_t z, auto&& put) {
-      if (tet_of_zero_[z] != kNone) put(tet_of_zero_[z], std::uint32_t(z));
+      const TetId t = tet_of_zero_[z];
+      if (t != kNone && states_[t] == State::kAsk) put(t, std::uint32_t(z));
     });
     parallel_for(
         states_.size(),
@@ -107,33 +108,24 @@ class Refinement {
     });
   }
 
-  void bisect(const Bisection& bisection) {
-    const auto& edges = bisection.edges;
+  void divide(const Bisection& bisection) {
     const std::size_t vertices = mesh_.points.size();
-    mesh_ = subdivide(
-        mesh_,
-        [&](const MeshEdge& e) { return std::ranges::binary_search(edges, std::pair(e.a, e.b)); },
-        [&](const MeshEdge& e) { return straight_midpoint(mesh_, e); });
-    std::vector<TetId> first_child(bisection.of_tet.begin(), bisection.of_tet.end());
-    for (TetId& children : first_child) ++children;
-    exclusive_scan(first_child);
+    std::vector<TetId> second(mesh_.tets.size());
+    parallel_for(second.size(), [&](std::size_t t) { second[t] = bisection.of_tet[t]; });
+    exclusive_scan(second);
+    const TetId before = TetId(mesh_.tets.size());
+    bisect(mesh_, bisection);
     value_from(vertices);
-    pass_on(bisection, first_child);
-  }
-
-  void pass_on(const Bisection& bisection, const std::vector<TetId>& first_child) {
-    std::vector<State> states(mesh_.tets.size(), State::kAsk);
-    parallel_for(first_child.size(), [&](std::size_t t) {
-      if (!bisection.of_tet[t]) states[first_child[t]] = states_[t];
+    states_.resize(mesh_.tets.size(), State::kAsk);
+    parallel_for(second.size(), [&](std::size_t t) {
+      if (bisection.of_tet[t]) states_[t] = State::kAsk;
     });
-    states_ = std::move(states);
     parallel_for(zeros_.size(), [&](std::size_t z) {
       TetId& t = tet_of_zero_[z];
-      if (t == kNone) return;
+      if (t == kNone || !bisection.of_tet[t]) return;
       const Vec3& p = zeros_[z].place;
-      const TetId child = first_child[t];
-      const bool second = bisection.of_tet[t] && depth_in(child + 1, p) > depth_in(child, p);
-      t = child + (second ? 1 : 0);
+      const TetId other = before + second[t];
+      if (depth_in(other, p) > depth_in(t, p)) t = other;
     });
   }
 

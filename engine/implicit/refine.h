@@ -16,7 +16,8 @@ struct RefineOptions {
 /// conforming: those that are in the way of another's are bisected first, so that sizes rise
 /// gradually away from the level set. Edges and tets that are required stay.
 /// \param level_set with a gradient \param zeros of the level set; one or more on each piece of it
-/// that is to be found \pre mesh has no holes \returns the number of passes
+/// that is to be found \pre mesh has no holes, and no edge in which it touches
+/// itself unless classify_features() has tagged it \returns the number of passes
 /// \throw InputError when the result has more tets or vertices than ids can name
 int refine_near(TetMesh& mesh, const LevelSet& level_set, std::span<const OrientedPoint> zeros,
                 const RefineOptions& options);
