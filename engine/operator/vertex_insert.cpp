@@ -13,9 +13,7 @@ constexpr std::size_t kMostTets = 512;
 constexpr int kMostSteps = 200;
 constexpr int kMostShrinks = 20;
 
-/// A vertex nearer to another one than this, in wanted sizes, would only be collapsed.
-constexpr double kNearest = 0.7;
-/// The same for its height above a surface triangle.
+/// kNearest for its height above a surface triangle.
 constexpr double kLowest = 0.4;
 
 /// Flatter tets are hard to repair; where the mesh is Delaunay, hardly any is.

@@ -41,6 +41,9 @@ class IdSet {
 /// them: insertions in disjoint reaches may run at the same time on one mesh.
 class VertexInsert {
  public:
+  /// A vertex nearer to another one than this, in wanted sizes, would only be collapsed.
+  static constexpr double kNearest = 0.7;
+
   VertexInsert(const TetMesh& mesh, const Box& reach);
 
   /// The tet around p, walking from one at vertex `from`; kNone if something is in the way or the

@@ -14,8 +14,6 @@ namespace {
 
 /// Points are wanted where their lattice's cells are at least this many wanted sizes.
 constexpr double kFinestCell = 0.75;
-/// As in VertexInsert: nothing comes nearer to a vertex.
-constexpr double kNearest = 0.7;
 
 /// Edge of a block and what it may reach beyond, in cells. Blocks of one colour are a block apart,
 /// so that reaches are disjoint; a cavity between points of the coarser level reaches 2.3 cells.
@@ -86,7 +84,8 @@ class SeedLevel {
         size = std::min(size, mesh_.sizes[v] + options_.growth * std::sqrt(d2));
       }
       if (options_.size) size = options_.size(p, size);
-      if (cell < kFinestCell * size || nearest2 < kNearest * kNearest * size * size) return;
+      const double least = VertexInsert::kNearest * size;
+      if (cell < kFinestCell * size || nearest2 < least * least) return;
       out.push_back({p, float(size), near});
     });
   }

@@ -192,7 +192,7 @@ class Run {
   bool fill() {
     if (r_.freeze.insert) return false;
     constexpr double kFew = 0.05;  // of all vertices
-    const TetMesh before = mesh_;
+    TetMesh before = mesh_;
     timed("bulk", [&] { refine(BulkEdges::kOfSurface); });
     const bool divided = mesh_.points.size() > before.points.size();
     const Phase thin = thinning(r_);
@@ -201,7 +201,7 @@ class Run {
     timed("seeding", [&] { seeds = seed(); });
     if (!divided || double(seeds) >= kFew * double(mesh_.points.size())) return true;
     // Too thin for seeds: a fine surface around what is coarse inside is then hard to mend.
-    mesh_ = before;
+    mesh_ = std::move(before);
     timed("bulk", [&] { refine(BulkEdges::kAll); });
     return false;
   }

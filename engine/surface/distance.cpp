@@ -257,7 +257,7 @@ struct DistanceMeter::Memory {
   Memory(const SurfaceModel& m, const DistanceSampling& s)
       : model(m), sampling(s), tree(m), facets(facets_of(m)), of_model(facets.size()) {}
 
-  void forget_what_changed(const OutputSurface& now) {
+  void forget_what_changed(OutputSurface now) {
     const Changes changes(out.corners, now.corners);
     std::vector<Sampled> kept(now.corners.size());
     parallel_for(kept.size(), [&](std::size_t t) {
@@ -274,7 +274,7 @@ struct DistanceMeter::Memory {
       changed.visit_overlapping(reach_of(model.patch_of_facet(std::int32_t(f)), s.max),
                                 [&](std::size_t) { s.count = 0; });
     });
-    out = now;
+    out = std::move(now);
   }
 
   const SurfaceModel& model;
