@@ -27,26 +27,31 @@ constexpr int kMostRounds = 8;
 
 class Clearing {
  public:
-  Clearing(TetMesh& mesh, const LevelSet& level_set, double tolerance)
+  Clearing(TetMesh& mesh, const LevelSet& level_set, double tolerance, std::span<const char> fixed)
       : mesh_(mesh),
         level_set_(level_set),
         tolerance_(tolerance),
+        fixed_(fixed),
         moves_(mesh),
         values_(mesh.points.size()) {
     evaluate();
   }
 
   void run() {
-    for (const VertexId v : at_crossed_edges()) move_onto(v);
+    for (const VertexId v : at_crossed_edges())
+      if (!is_fixed(v)) move_onto(v);
     evaluate();  // as the cut will see them
     for (int round = 0; round < kMostRounds; ++round) {
       const std::vector<VertexId> pinching = pinching_vertices(mesh_, values_);
       if (pinching.empty()) return;
-      for (const VertexId v : pinching) move_away(v);
+      for (const VertexId v : pinching)
+        if (!is_fixed(v)) move_away(v);
     }
   }
 
  private:
+  bool is_fixed(VertexId v) const { return !fixed_.empty() && fixed_[v]; }
+
   void evaluate() {
     parallel_for(values_.size(),
                  [&](std::size_t v) { values_[v] = level_set_.value(mesh_.points[v]); });
@@ -78,7 +83,8 @@ class Clearing {
       if (std::abs(values_[v]) < kOn * edge * slope) values_[v] = 0;  // of no sign
       return std::ranges::none_of(ball, [&](TetId t) { return is_off(t); });
     };
-    if (!moves_.move(v, moves_.to_zero(v, level_set_, 2 * kNear * edge), kLimits, stays_near))
+    if (!moves_.move(v, moves_.to_zero(v, std::array{&level_set_}, 2 * kNear * edge), kLimits,
+                     stays_near))
       values_[v] = before;
   }
 
@@ -109,14 +115,16 @@ class Clearing {
   TetMesh& mesh_;
   const LevelSet& level_set_;
   const double tolerance_;
+  const std::span<const char> fixed_;
   VertexMoves moves_;
   std::vector<double> values_;
 };
 
 }  // namespace
 
-void clear_for_cut(TetMesh& mesh, const LevelSet& level_set, double tolerance) {
-  Clearing(mesh, level_set, tolerance).run();
+void clear_for_cut(TetMesh& mesh, const LevelSet& level_set, double tolerance,
+                   std::span<const char> fixed) {
+  Clearing(mesh, level_set, tolerance, fixed).run();
 }
 
 }  // namespace cavea

@@ -8,6 +8,7 @@
 #include "cavea/base/error.h"
 #include "cavea/base/parallel.h"
 #include "cavea/implicit/islands.h"
+#include "cavea/implicit/keep.h"
 #include "cavea/implicit/normals.h"
 #include "cavea/implicit/signs.h"
 #include "cavea/mesh/build.h"
@@ -57,8 +58,9 @@ class Cut {
         level_set_(level_set),
         options_(options),
         report_(report),
-        signs_(cut_signs(mesh, values_)) {
+        signs_(cut_signs(mesh, values_, splits())) {
     report_.vertices_on_interface = std::ranges::count(signs_, 0);
+    silence_unsplit();
   }
 
   TetMesh run() {
@@ -76,6 +78,21 @@ class Cut {
   }
 
  private:
+  /// By tet, whether its material is to be divided.
+  std::vector<char> splits() const {
+    std::vector<char> out(mesh_.tets.size());
+    parallel_for(out.size(), [&](std::size_t t) { out[t] = material(mesh_.tet_refs[t]).split; });
+    return out;
+  }
+
+  /// Where no tet is to be divided no edge is cut: vertices there are of no side.
+  void silence_unsplit() {
+    std::vector<char> has_a_say(signs_.size(), 0);
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
+      for (const VertexId v : mesh_.tets[t]) has_a_say[v] |= material(mesh_.tet_refs[t]).split;
+    for (std::size_t v = 0; v < signs_.size(); ++v) signs_[v] *= has_a_say[v];
+  }
+
   bool crossed(VertexId a, VertexId b) const { return signs_[a] * signs_[b] < 0; }
 
   NewVertex vertex_on(const MeshEdge& e) const {
@@ -187,19 +204,7 @@ class Cut {
   void keep_side(MeshData& data) const {
     if (options_.keep == CutKeep::kBoth) return;
     const std::int8_t kept = options_.keep == CutKeep::kInside ? -1 : 1;
-    std::vector<std::int32_t> new_id(data.tets.size(), kNone);
-    std::size_t n = 0;
-    for (std::size_t t = 0; t < data.tets.size(); ++t) {
-      if (sides_[t] != kept) continue;
-      new_id[t] = std::int32_t(n);
-      data.tets[n] = data.tets[t];
-      data.tet_refs[n++] = data.tet_refs[t];
-    }
-    if (n == 0) throw InputError("nothing is left of the side of the level set that is to be kept");
-    data.tets.resize(n);
-    data.tet_refs.resize(n);
-    for (std::int32_t& t : data.required_tets) t = new_id[t];
-    std::erase(data.required_tets, kNone);
+    keep_tets(data, [&](std::size_t t) { return sides_[t] == kept; });
   }
 
   const TetMesh& mesh_;

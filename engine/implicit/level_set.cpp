@@ -48,6 +48,28 @@ struct Bracket {
   }
 };
 
+// The square of a sine: level sets that meet at less than half a degree have no line in common to
+// speak of, and the first one counts alone.
+constexpr double kParallel = 1e-4;
+
+/// The shortest step that is allowed to where all are zero, to first order: Gram-Schmidt makes of
+/// each gradient the part that leaves the others' values alone.
+Vec3 newton_step(std::span<const LevelSet* const> level_sets, const Vec3& at,
+                 const std::function<Vec3(const Vec3&)>& allowed) {
+  Vec3 step;
+  std::array<Vec3, 3> done;
+  int n = 0;
+  for (const LevelSet* level_set : level_sets) {
+    const Vec3 g = allowed(level_set->gradient(at));
+    Vec3 way = g;
+    for (int k = 0; k < n; ++k) way -= done[k] * (dot(done[k], g) / norm2(done[k]));
+    if (n == 3 || norm2(way) <= kParallel * norm2(g)) continue;
+    step -= way * ((level_set->value(at) + dot(g, step)) / norm2(way));
+    done[n++] = way;
+  }
+  return step;
+}
+
 using Corners = std::array<double, 8>;
 
 bool has_both_signs(const Corners& values) {
@@ -82,8 +104,8 @@ std::vector<double> values_of_layer(const LevelSet& level_set, const Lattice& la
 }
 
 OrientedPoint zero_near(const LevelSet& level_set, const Vec3& from, double reach) {
-  const Vec3 at =
-      from + way_to_zero(level_set, from, reach, [](const Vec3& direction) { return direction; });
+  const Vec3 at = from + way_to_zero(std::array{&level_set}, from, reach,
+                                     [](const Vec3& direction) { return direction; });
   const Vec3 normal = normalized(level_set.gradient(at));
   return {at, is_finite(normal) ? normal : Vec3{}};
 }
@@ -136,12 +158,11 @@ double zero_on_edge(const LevelSet& level_set, const Vec3& a, const Vec3& b, dou
   return bracket.middle();
 }
 
-Vec3 way_to_zero(const LevelSet& level_set, const Vec3& from, double reach,
+Vec3 way_to_zero(std::span<const LevelSet* const> level_sets, const Vec3& from, double reach,
                  const std::function<Vec3(const Vec3&)>& allowed) {
   Vec3 at = from;
   for (int k = 0; k < kNewtonSteps; ++k) {
-    const Vec3 g = allowed(level_set.gradient(at));
-    const Vec3 next = at - g * (level_set.value(at) / norm2(g));
+    const Vec3 next = at + newton_step(level_sets, at, allowed);
     if (!is_finite(next) || distance(next, from) > reach) break;
     at = next;
   }

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "cavea/geometry/box.h"
@@ -27,9 +28,10 @@ LevelSet less(const LevelSet& level_set, double isovalue);
 double zero_on_edge(const LevelSet& level_set, const Vec3& a, const Vec3& b, double at_a,
                     double at_b);
 
-/// The way to a zero by Newton steps; nowhere farther than `reach`: up to there where they lead on.
-/// \param level_set with a gradient \param allowed the part of a direction in which to go
-Vec3 way_to_zero(const LevelSet& level_set, const Vec3& from, double reach,
+/// The way to a common zero by Newton steps, each the shortest one there is; nowhere farther than
+/// `reach`: up to there where they lead on.
+/// \param level_sets with gradients \param allowed the part of a direction in which to go
+Vec3 way_to_zero(std::span<const LevelSet* const> level_sets, const Vec3& from, double reach,
                  const std::function<Vec3(const Vec3&)>& allowed);
 
 /// A zero for each cell of a lattice in whose corners the function has both signs: what is smaller

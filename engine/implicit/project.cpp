@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "cavea/base/parallel.h"
 #include "cavea/implicit/vertex_moves.h"
@@ -16,19 +18,34 @@ constexpr double kReach = 0.25;
 /// As in the last phase of remesh(): what is better than the floor may become a little worse.
 constexpr MoveLimits kLimits{.share = 0.9, .floor = 0.4};
 
-std::vector<VertexId> vertices_of(const TetMesh& mesh, std::int32_t ref) {
-  std::vector<char> is_of(mesh.points.size(), 0);
+/// A vertex and, by their places, the level sets that it is to be on, rising.
+struct InterfaceVertex {
+  VertexId id;
+  std::vector<std::size_t> level_sets;
+};
+
+/// By rising vertices.
+std::vector<InterfaceVertex> interface_vertices(const TetMesh& mesh,
+                                                std::span<const MeshedLevelSet> level_sets) {
+  std::vector<std::pair<VertexId, std::size_t>> pairs;
   for (const Triangle& s : mesh.triangles)
-    if (s.alive() && s.ref == ref)
-      for (const VertexId v : s.v) is_of[v] = 1;
-  std::vector<VertexId> vertices;
-  for (std::size_t v = 0; v < is_of.size(); ++v)
-    if (is_of[v]) vertices.push_back(VertexId(v));
+    for (std::size_t k = 0; k < level_sets.size() && s.alive(); ++k)
+      if (s.ref == level_sets[k].interface_ref)
+        for (const VertexId v : s.v) pairs.emplace_back(v, k);
+  std::ranges::sort(pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::vector<InterfaceVertex> vertices;
+  for (const auto& [v, k] : pairs) {
+    if (vertices.empty() || vertices.back().id != v) vertices.push_back({v, {}});
+    vertices.back().level_sets.push_back(k);
+  }
   return vertices;
 }
 
-bool stays(const TetMesh& mesh, VertexId v) {
-  return (mesh.vertex_tags[v] & (tag::kRequired | tag::kCorner | tag::kPinched)) != 0;
+bool stays(const TetMesh& mesh, const InterfaceVertex& vertex) {
+  const Tag tags = mesh.vertex_tags[vertex.id];
+  const bool is_common_point = vertex.level_sets.size() >= 3;
+  return (tags & (tag::kRequired | tag::kPinched)) || ((tags & tag::kCorner) && !is_common_point);
 }
 
 /// The distance from a point to the nearest zero on a line through it, no more than `most`: steps
@@ -60,13 +77,22 @@ double off(const LevelSet& level_set, const std::array<Vec3, 3>& corners) {
 
 }  // namespace
 
-void project_onto(TetMesh& mesh, const LevelSet& level_set, std::int32_t interface_ref) {
-  VertexMoves moves(mesh, interface_ref);
-  for (const VertexId v : vertices_of(mesh, interface_ref)) {
-    if (stays(mesh, v)) continue;
-    const Vec3 step = moves.to_zero(v, level_set, kReach * moves.shortest_edge(v));
+void project_onto(TetMesh& mesh, std::span<const MeshedLevelSet> level_sets) {
+  std::vector<std::int32_t> refs;
+  for (const MeshedLevelSet& meshed : level_sets) refs.push_back(meshed.interface_ref);
+  VertexMoves moves(mesh, refs);
+  for (const InterfaceVertex& vertex : interface_vertices(mesh, level_sets)) {
+    if (stays(mesh, vertex)) continue;
+    const VertexId v = vertex.id;
+    std::vector<const LevelSet*> wanted;
+    for (const std::size_t k : vertex.level_sets) wanted.push_back(&level_sets[k].level_set);
+    const Vec3 step = moves.to_zero(v, wanted, kReach * moves.shortest_edge(v));
     if (norm2(step) > 0) moves.move(v, step, kLimits);
   }
+}
+
+void project_onto(TetMesh& mesh, const LevelSet& level_set, std::int32_t interface_ref) {
+  project_onto(mesh, std::array{MeshedLevelSet{level_set, interface_ref}});
 }
 
 double distance_from(const TetMesh& mesh, const LevelSet& level_set, std::int32_t interface_ref) {

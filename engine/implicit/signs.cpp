@@ -93,9 +93,13 @@ class BallSides {
   std::vector<std::array<std::int32_t, 2>> group_;
 };
 
-Buckets tets_at_vertices(const TetMesh& mesh) {
+bool has_a_say(const TetMesh& mesh, std::span<const char> split, std::size_t t) {
+  return mesh.tet_alive(TetId(t)) && (split.empty() || split[t]);
+}
+
+Buckets tets_at_vertices(const TetMesh& mesh, std::span<const char> split) {
   return Buckets(mesh.tets.size(), mesh.points.size(), [&](std::size_t t, auto&& put) {
-    if (!mesh.tet_alive(TetId(t))) return;
+    if (!has_a_say(mesh, split, t)) return;
     for (const VertexId v : mesh.tets[t]) put(v, std::uint32_t(t));
   });
 }
@@ -111,10 +115,10 @@ VertexId near_end(VertexId a, VertexId b, std::span<const double> values) {
 
 /// Puts all vertices on the interface that the level set passes too near to.
 void put_on_interface(const TetMesh& mesh, std::span<const double> values,
-                      std::vector<std::int8_t>& signs) {
+                      std::span<const char> split, std::vector<std::int8_t>& signs) {
   parallel_for(mesh.tets.size(), [&](std::size_t t) {
     const auto& tet = mesh.tets[t];
-    if (!mesh.tet_alive(TetId(t))) return;
+    if (!has_a_say(mesh, split, t)) return;
     for (const auto& e : kEdgeVertices)
       if (const VertexId v = near_end(tet[e[0]], tet[e[1]], values); v != kNone)
         std::atomic_ref(signs[v]).store(0, std::memory_order_relaxed);
@@ -135,10 +139,11 @@ bool take_off_pinched(const TetMesh& mesh, const Buckets& balls, std::span<const
 }
 
 /// As if no vertex pinched the interface.
-std::vector<std::int8_t> near_signs(const TetMesh& mesh, std::span<const double> values) {
+std::vector<std::int8_t> near_signs(const TetMesh& mesh, std::span<const double> values,
+                                    std::span<const char> split = {}) {
   std::vector<std::int8_t> signs(values.size());
   parallel_for(values.size(), [&](std::size_t v) { signs[v] = sign_off_interface(values[v]); });
-  put_on_interface(mesh, values, signs);
+  put_on_interface(mesh, values, split, signs);
   return signs;
 }
 
@@ -153,9 +158,10 @@ int side_of_tet(const std::array<VertexId, 4>& tet, std::span<const std::int8_t>
   return sign_off_interface(sum);
 }
 
-std::vector<std::int8_t> cut_signs(const TetMesh& mesh, std::span<const double> values) {
-  std::vector<std::int8_t> signs = near_signs(mesh, values);
-  const Buckets balls = tets_at_vertices(mesh);
+std::vector<std::int8_t> cut_signs(const TetMesh& mesh, std::span<const double> values,
+                                   std::span<const char> split) {
+  std::vector<std::int8_t> signs = near_signs(mesh, values, split);
+  const Buckets balls = tets_at_vertices(mesh, split);
   // Ends: each pass takes vertices off, and none is put on again.
   while (take_off_pinched(mesh, balls, values, signs)) {
   }

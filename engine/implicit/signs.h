@@ -16,8 +16,10 @@ inline constexpr double kLeastCutShare = 0.01;
 /// By vertex: -1 inside (negative value), 1 outside, 0 on the interface. A vertex is on the
 /// interface where the level set passes nearer than kLeastCutShare of an edge, but not where the
 /// inside or the outside at the vertex would then fall into pieces that no face joins.
-/// \param values by vertex, finite
-std::vector<std::int8_t> cut_signs(const TetMesh& mesh, std::span<const double> values);
+/// \param values by vertex, finite \param split by tet, whether it is to be cut: others have no
+/// say; empty: all are
+std::vector<std::int8_t> cut_signs(const TetMesh& mesh, std::span<const double> values,
+                                   std::span<const char> split = {});
 
 /// The vertices that the level set passes so near to, but that would pinch it if they were on it.
 std::vector<VertexId> pinching_vertices(const TetMesh& mesh, std::span<const double> values);

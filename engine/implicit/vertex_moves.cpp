@@ -25,12 +25,12 @@ void VertexMoves::gather(VertexId v) {
 
 Vec3 VertexMoves::along_boundary(VertexId v, const Vec3& step) {
   if (!(mesh_.vertex_tags[v] & tag::kSurface)) return step;
-  if (mesh_.vertex_tags[v] & (tag::kRequired | tag::kCorner)) return {};
   gather(v);
   Vec3 normal, line;
-  bool fixed = false;
+  bool fixed = mesh_.vertex_tags[v] & tag::kRequired;
   for_each_triangle(mesh_, ball_, [&](TriangleId s) {
-    if (!mesh_.triangles[s].sides[1].is_unset() || mesh_.triangles[s].ref == free_ref_) return;
+    if (!is_boundary(mesh_.triangles[s])) return;
+    fixed |= (mesh_.vertex_tags[v] & tag::kCorner) != 0;
     const Vec3 n = unit_normal(mesh_, mesh_.triangles[s]);
     if (norm2(normal) == 0) normal = n;
     const Vec3 other = cross(normal, n);
@@ -42,8 +42,12 @@ Vec3 VertexMoves::along_boundary(VertexId v, const Vec3& step) {
   return norm2(line) > 0 ? line * dot(line, step) : step - normal * dot(normal, step);
 }
 
-Vec3 VertexMoves::to_zero(VertexId v, const LevelSet& level_set, double reach) {
-  return way_to_zero(level_set, mesh_.points[v], reach,
+bool VertexMoves::is_boundary(const Triangle& s) const {
+  return s.sides[1].is_unset() && std::ranges::find(free_refs_, s.ref) == free_refs_.end();
+}
+
+Vec3 VertexMoves::to_zero(VertexId v, std::span<const LevelSet* const> level_sets, double reach) {
+  return way_to_zero(level_sets, mesh_.points[v], reach,
                      [&](const Vec3& direction) { return along_boundary(v, direction); });
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cavea/implicit/level_set.h"
@@ -20,16 +20,16 @@ struct MoveLimits {
 /// Moves vertices of a mesh one after the other, where the tets at them allow it.
 class VertexMoves {
  public:
-  /// \param free_ref triangles of this reference are no boundary to stay on
-  explicit VertexMoves(TetMesh& mesh, std::optional<std::int32_t> free_ref = {})
-      : mesh_(mesh), free_ref_(free_ref) {}
+  /// \param free_refs triangles of these references are no boundary to stay on
+  explicit VertexMoves(TetMesh& mesh, std::vector<std::int32_t> free_refs = {})
+      : mesh_(mesh), free_refs_(std::move(free_refs)) {}
 
   /// What of a step keeps a vertex on the exterior boundary, if it is in one plane or on a line in
   /// which two planes meet: all of it inside, none at corners and where the boundary is curved.
   Vec3 along_boundary(VertexId v, const Vec3& step);
 
-  /// The way of a vertex to the level set, see way_to_zero(), along the boundary if it is on it.
-  Vec3 to_zero(VertexId v, const LevelSet& level_set, double reach);
+  /// The way of a vertex to the level sets, see way_to_zero(), along the boundary if it is on it.
+  Vec3 to_zero(VertexId v, std::span<const LevelSet* const> level_sets, double reach);
 
   /// What else is asked of the tets at a vertex that has moved.
   using Accepts = std::function<bool(std::span<const TetId>)>;
@@ -41,10 +41,11 @@ class VertexMoves {
 
  private:
   void gather(VertexId v);
+  bool is_boundary(const Triangle& s) const;
   bool allows(const Vec3& place, const MoveLimits& limits);
 
   TetMesh& mesh_;
-  const std::optional<std::int32_t> free_ref_;
+  const std::vector<std::int32_t> free_refs_;
   TetMarker marker_;
   Ball ball_;
   std::vector<float> qualities_;  ///< of the ball's tets, were the vertex at the place asked for

@@ -1,4 +1,7 @@
 // From grids to meshes, with the program.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
 #include "cavea/io/formats.h"
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/statistics.h"
@@ -98,6 +101,53 @@ TEST_F(GridRunTest, GivesTheSameBytesAtAnyNumberOfThreads) {
   for (const char* threads : {"2", "3", "8"}) EXPECT_TRUE(run(threads) == expected) << threads;
 }
 
+/// Negative in the samples `torus` and `sphere`.
+double in_torus(const Vec3& p) {
+  return std::hypot(std::hypot(p.x - 0.5, p.y - 0.5) - 0.28, p.z - 0.5) - 0.12;
+}
+double in_sphere(const Vec3& p) { return distance(p, {0.5, 0.5, 0.5}) - 0.3; }
+
+/// Of what is in the second one and not in the first one: midpoints of 60^3 cells.
+double volume_left(double (*first)(const Vec3&), double (*second)(const Vec3&)) {
+  constexpr int kCells = 60;
+  int n = 0;
+  for (int c = 0; c < kCells * kCells * kCells; ++c) {
+    const Vec3 p =
+        Vec3{c % kCells + 0.5, c / kCells % kCells + 0.5, c / kCells / kCells + 0.5} / kCells;
+    n += first(p) >= 0 && second(p) < 0;
+  }
+  return n / std::pow(kCells, 3);
+}
+
+TEST_F(GridRunTest, StacksFilesByPriority) {
+  make_grid("torus", "64");
+  make_grid("sphere", "48");
+  struct {
+    std::vector<std::string> files;
+    double first, second;
+  } const kOrders[] = {{{"torus.vdb", "sphere.vdb"}, 0.079587, volume_left(in_torus, in_sphere)},
+                       {{"sphere.vdb", "torus.vdb"}, 0.113097, volume_left(in_sphere, in_torus)}};
+  for (const auto& [order, first, second] : kOrders) {
+    SCOPED_TRACE(order[0]);
+    const Outcome outcome = cavea({"implicit", order[0], order[1], "-o", "out.meshb", "--hausd",
+                                   "0.003", "--report", "r.json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(order[1] + ": "), std::string::npos) << outcome.out;
+    const TetMesh out = mesh("out.meshb");
+    expect_sound(out);
+    const auto volumes = count(out).volume_of_ref;
+    EXPECT_EQ(volumes.size(), 3u);
+    EXPECT_NEAR(volumes.at(3), first, 0.03 * first);
+    EXPECT_NEAR(volumes.at(4), second, 0.03 * second);
+    const auto report = nlohmann::json::parse(read_text(file("r.json")));
+    ASSERT_EQ(report["level_sets"].size(), 2u);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_EQ(report["level_sets"][k]["name"], order[k]);
+      EXPECT_LT(report["level_sets"][k]["distance"], 1.0 / 48);
+    }
+  }
+}
+
 TEST_F(GridRunTest, SamplesTheSurfaceOfAMesh) {
   write_text(file("cube.mesh"), cube_text());
   ASSERT_EQ(cavea({"grid", "surface", "cube.mesh", "-o", "cube.vdb", "--voxels", "24"}).status, 0);
@@ -130,6 +180,12 @@ TEST_F(GridRunTest, RefusesWhatIsNoLevelSet) {
   expect_refused({"sphere.vdb", "--box", "0,0,0,1,1"}, "--box");
   expect_refused({"sphere.vdb", "--box", "0.48,0.48,0.48,0.52,0.52,0.52"}, "nowhere 0");
   expect_refused({"sphere.vdb", "--sol", "phi.sol"}, "--sol");
+  expect_refused({"sphere.vdb", "--grid", "phi", "--grid", "phi"}, "nothing of its inside");
+  expect_refused({"sphere.vdb", "sphere.vdb", "--grid", "phi"}, "--grid is given 1 times for 2");
+  expect_refused({"sphere.vdb", "sphere.vdb", "--reference-map", "1:5:6"}, "single level set");
+  expect_refused({"sphere.vdb", "sphere.vdb", "--outside-ref", "4"}, "3 to 4");
+  expect_refused({"sphere.vdb", "cube.mesh"}, "cube.mesh");
+  expect_refused({"cube.mesh", "sphere.vdb", "--sol", "phi.sol"}, "only .vdb files");
   expect_refused({"sphere.vdb", "--met", "sizes.sol"}, "--met");
   expect_refused({"cube.mesh", "--sol", "phi.sol", "--grid", "phi"}, "--grid");
   expect_refused({"cube.mesh", "--sol", "phi.sol", "--box", "0,0,0,1,1,1"}, "--box");

@@ -1,6 +1,7 @@
 #include "command_remesh.h"
 
 #include <cstdio>
+#include <functional>
 
 #include "cavea/base/error.h"
 #include "cavea/base/memory.h"
@@ -34,17 +35,32 @@ void check_names(const RemeshArguments& arguments) {
         {arguments.implicit ? "the file of --met" : "the file of --sol", arguments.sizes});
   if (arguments.implicit && !arguments.implicit->values.empty())
     inputs.push_back({"the file of --sol", arguments.implicit->values});
+  if (arguments.implicit)
+    for (const std::string& file : arguments.implicit->below) inputs.push_back({"an input", file});
   if (!arguments.parameters.empty())
     inputs.push_back({"the file of --params", arguments.parameters});
   if (!arguments.surface.empty()) inputs.push_back({"the file of --surface", arguments.surface});
   check_outputs(inputs, outputs);
 }
 
-/// The vertices of the interface are put onto the level set, if it is known everywhere.
-void finish_on(const LevelSet& level_set, const RemeshArguments& arguments, Options& options) {
-  options.finish = [&level_set, ref = arguments.implicit->cut.interface_ref](TetMesh& mesh) {
-    project_onto(mesh, level_set, ref);
-  };
+/// How far the interfaces are from their level sets, where these are known everywhere.
+std::vector<LevelSetRun> measure(std::vector<CutLevelSet>& level_sets, const TetMesh& mesh) {
+  std::vector<LevelSetRun> runs;
+  for (CutLevelSet& cut : level_sets) {
+    LevelSetRun& run = runs.emplace_back(std::move(cut.name), cut.report);
+    if (cut.meshed)
+      run.distance = distance_from(mesh, cut.meshed->level_set, cut.meshed->interface_ref);
+  }
+  return runs;
+}
+
+/// The vertices of interfaces are put onto the level sets that are known everywhere.
+std::function<void(TetMesh&)> finish_on(const std::vector<CutLevelSet>& level_sets) {
+  std::vector<MeshedLevelSet> meshed;
+  for (const CutLevelSet& cut : level_sets)
+    if (cut.meshed) meshed.push_back(*cut.meshed);
+  if (meshed.empty()) return {};
+  return [meshed = std::move(meshed)](TetMesh& mesh) { project_onto(mesh, meshed); };
 }
 
 /// Runs the library with a progress line, which is gone when this returns.
@@ -83,12 +99,12 @@ RunReport remesh_file(const RemeshArguments& arguments, Options options,
   const double read_seconds = timer.seconds();
   options.cancel = interrupt.flag();
   options.directions = true;
-  if (prepared.level_set) finish_on(*prepared.level_set, arguments, options);
-  RunReport run{arguments, run_library(loaded.mesh, prepared.field, options, arguments.quiet),
-                prepared.cut, read_seconds};
-  if (prepared.level_set)
-    run.interface_distance =
-        distance_from(loaded.mesh, *prepared.level_set, arguments.implicit->cut.interface_ref);
+  options.finish = finish_on(prepared.level_sets);
+  RunReport run{arguments,
+                run_library(loaded.mesh, prepared.field, options, arguments.quiet),
+                {},
+                read_seconds};
+  run.level_sets = measure(prepared.level_sets, loaded.mesh);
   std::vector<std::string>& warnings = run.report.warnings;
   warnings.insert(warnings.begin(), loaded.warnings.begin(), loaded.warnings.end());
 

@@ -41,11 +41,18 @@ void add_entry(const std::string& entry, CutOptions& options) {
 
 }  // namespace
 
+void one_value_each(CLI::Option* option) {
+  option->expected(1)->take_all()->allow_extra_args(false);
+}
+
 void add_cut_flags(CLI::App& command, ImplicitArguments& arguments) {
   CutOptions& cut = arguments.cut;
   command.add_option("--sol", arguments.values,
                      "The level set's values at the vertices of IN (.sol, .solb)");
-  command.add_option("--grid", arguments.grid, "Which grid of IN (.vdb), if there are several");
+  one_value_each(command.add_option(
+      "--grid", arguments.grids,
+      "Which grid of IN (.vdb), if there are several; may be given again, as may files: what is "
+      "inside of an earlier one is not of a later one"));
   command
       .add_option("--box", arguments.box,
                   "XMIN,YMIN,ZMIN,XMAX,YMAX,ZMAX: what to mesh of IN (.vdb) [around the level set]")
@@ -65,12 +72,13 @@ void add_cut_flags(CLI::App& command, ImplicitArguments& arguments) {
       ->capture_default_str();
   command.add_option("--interface-ref", cut.interface_ref, "Reference of triangles between")
       ->capture_default_str();
-  command
-      .add_option("--reference-map", arguments.reference_map,
-                  "REF:IN:OUT or REF:keep, for tets of one reference; may be given again")
-      ->expected(1)
-      ->take_all()
-      ->allow_extra_args(false);
+  one_value_each(
+      command.add_option("--reference-map", arguments.reference_map,
+                         "REF:IN:OUT or REF:keep, for tets of one reference; may be given again"));
+}
+
+void add_stack_positional(CLI::App& command, ImplicitArguments& arguments) {
+  command.add_option("BELOW", arguments.below, "More files of grids (.vdb), of lower priority");
 }
 
 void check_level_set(const ImplicitArguments& arguments, bool is_grid) {
@@ -78,7 +86,9 @@ void check_level_set(const ImplicitArguments& arguments, bool is_grid) {
     throw OptionError("--sol is for a mesh, not for a .vdb file, which has values of its own");
   if (!is_grid && arguments.values.empty())
     throw OptionError("--sol is needed: the level set's values at the vertices of the mesh");
-  if (!is_grid && !arguments.grid.empty()) throw OptionError("--grid is for a .vdb file");
+  if (!is_grid && !arguments.grids.empty()) throw OptionError("--grid is for a .vdb file");
+  if (!is_grid && !arguments.below.empty())
+    throw OptionError(fmt::format("{}: only .vdb files can be stacked", arguments.below[0]));
   if (!is_grid && !arguments.box.empty()) throw OptionError("--box is for a .vdb file");
 }
 

@@ -32,12 +32,12 @@ std::vector<double> values_at(const LoadedMesh& loaded, const std::string& file)
   return values;
 }
 
-CutReport cut_by_values(const ImplicitArguments& implicit, LoadedMesh& loaded) {
+CutLevelSet cut_by_values(const ImplicitArguments& implicit, LoadedMesh& loaded) {
   const std::vector<double> values = values_at(loaded, implicit.values);
   try {
     CutResult cut = cut_along(loaded.mesh, values, to_cut_options(implicit));
     loaded.mesh = std::move(cut.mesh);
-    return cut.report;
+    return {implicit.values, cut.report, {}};
   } catch (const InputError& e) {
     throw InputError(implicit.values + ": " + e.what());  // values do not know where they came from
   }
@@ -53,12 +53,11 @@ Prepared prepare(const RemeshArguments& arguments, Options& options) {
   if (!arguments.implicit) return out;
   run_in_arena(options.threads > 0 ? options.threads : default_threads(), [&] {
     if (has_grid) {
-      GridCut cut = cut_by_grid(arguments, options);
-      out.loaded.mesh = std::move(cut.result.mesh);
-      out.cut = cut.result.report;
-      out.level_set = std::move(cut.level_set);
+      GridCut cut = cut_by_grids(arguments, options);
+      out.loaded.mesh = std::move(cut.mesh);
+      out.level_sets = std::move(cut.level_sets);
     } else {
-      out.cut = cut_by_values(*arguments.implicit, out.loaded);
+      out.level_sets.push_back(cut_by_values(*arguments.implicit, out.loaded));
     }
   });
   return out;

@@ -84,12 +84,10 @@ void add_target_flags(CLI::App& command, Options& options) {
 }
 
 void add_output_flags(CLI::App& command, RemeshArguments& arguments) {
-  // One value at each -o: CLI11 would let a list swallow the input's name.
-  command.add_option("-o,--out", arguments.outputs, "File to write; may be given again")
-      ->required()
-      ->expected(1)
-      ->take_all()
-      ->allow_extra_args(false);
+  CLI::Option* out =
+      command.add_option("-o,--out", arguments.outputs, "File to write; may be given again");
+  out->required();
+  one_value_each(out);
   command.add_option("--report", arguments.report, "Write a report as JSON");
   CLI::Option* verbose = command.add_flag("--verbose", arguments.verbose,
                                           "Also print the phases and the verdicts of operators");
@@ -103,6 +101,7 @@ namespace {
 
 void add_common_flags(CLI::App* command, RemeshArguments& arguments, const char* sizes_flag) {
   command->add_option("IN", arguments.input, "Mesh to read")->required();
+  if (arguments.implicit) add_stack_positional(*command, *arguments.implicit);
   add_output_flags(*command, arguments);
   add_size_flags(*command, arguments, sizes_flag);
   add_gradation_flags(*command, arguments);

@@ -62,15 +62,19 @@ Json stubborn_json(const Report& report) {
   return stubborn;
 }
 
-Json cut_json(const CutReport& cut) {
-  return {{"smallest_value", cut.smallest_value},
-          {"largest_value", cut.largest_value},
-          {"vertices_on_interface", cut.vertices_on_interface},
-          {"interface_triangles", cut.interface_triangles},
-          {"removed_components", cut.removed_components},
-          {"filled_cavities", cut.filled_cavities},
-          {"open", cut.open},
-          {"sagitta", cut.sagitta}};
+Json level_set_json(const LevelSetRun& run) {
+  const CutReport& cut = run.cut;
+  Json out = {{"name", run.name},
+              {"smallest_value", cut.smallest_value},
+              {"largest_value", cut.largest_value},
+              {"vertices_on_interface", cut.vertices_on_interface},
+              {"interface_triangles", cut.interface_triangles},
+              {"removed_components", cut.removed_components},
+              {"filled_cavities", cut.filled_cavities},
+              {"open", cut.open},
+              {"sagitta", cut.sagitta}};
+  if (run.distance) out["distance"] = *run.distance;
+  return out;
 }
 
 Json targets_json(const Report& report) {
@@ -108,8 +112,10 @@ Json to_json(const RunReport& run) {
               {"targets", targets_json(report)},
               {"targets_met", report.targets_met()},
               {"warnings", report.warnings}};
-  if (run.cut) out["level_set"] = cut_json(*run.cut);
-  if (run.interface_distance) out["level_set"]["distance"] = *run.interface_distance;
+  if (run.level_sets.size() == 1) out["level_set"] = level_set_json(run.level_sets[0]);
+  if (run.level_sets.size() > 1)
+    for (const LevelSetRun& level_set : run.level_sets)
+      out["level_sets"].push_back(level_set_json(level_set));
   return out;
 }
 

@@ -88,15 +88,22 @@ std::string verdicts_text(const Report& report) {
 
 namespace {
 
-std::string cut_text(const RunReport& run) {
-  const CutReport& cut = *run.cut;
+std::string level_set_text(const LevelSetRun& run, bool by_name) {
+  const CutReport& cut = run.cut;
   std::string text =
-      fmt::format("level set: {} triangles cut{}; {} components removed, {} cavities filled",
-                  cut.interface_triangles, cut.open ? ", open at the boundary of the domain" : "",
-                  cut.removed_components, cut.filled_cavities);
-  if (run.interface_distance)
-    text += fmt::format("; after remeshing {:.4g} from the interface", *run.interface_distance);
+      fmt::format("{}: {} triangles cut{}; {} components removed, {} cavities filled",
+                  by_name ? run.name : "level set", cut.interface_triangles,
+                  cut.open ? ", open at the boundary of the domain" : "", cut.removed_components,
+                  cut.filled_cavities);
+  if (run.distance)
+    text += fmt::format("; after remeshing {:.4g} from the interface", *run.distance);
   return text + "\n";
+}
+
+std::string level_sets_text(const std::vector<LevelSetRun>& runs) {
+  std::string text;
+  for (const LevelSetRun& run : runs) text += level_set_text(run, runs.size() > 1);
+  return text;
 }
 
 }  // namespace
@@ -113,7 +120,7 @@ std::string to_text(const RunReport& run, bool verbose) {
     blocks.push_back(verdicts_text(report));
     if (!report.stubborn.empty()) blocks.push_back(stubborn_text(report));
   }
-  if (run.cut) blocks.push_back(cut_text(run));
+  if (!run.level_sets.empty()) blocks.push_back(level_sets_text(run.level_sets));
   blocks.push_back(surface_text(report) + cost_text(run));
   blocks.push_back(targets_text(report));
   return fmt::format("{}", fmt::join(blocks, "\n"));

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,13 +10,19 @@
 
 namespace cavea::program {
 
+/// What became of one level set.
+struct LevelSetRun {
+  std::string name;  ///< of its file, and of its grid where one was named
+  CutReport cut;
+  std::optional<double> distance = {};  ///< of a grid: from the interface, after remeshing
+};
+
 /// Everything there is to say about one run of `cavea remesh` or `cavea implicit`.
 struct RunReport {
   const RemeshArguments& arguments;
   Report report;
-  std::optional<CutReport> cut;  ///< of `cavea implicit`
+  std::vector<LevelSetRun> level_sets;  ///< of `cavea implicit`, the first one first
   double read_seconds = 0, write_seconds = 0;
-  std::optional<double> interface_distance = {};  ///< from a grid's level set, after remeshing
 };
 
 /// The report as JSON; docs/report.md describes it.
