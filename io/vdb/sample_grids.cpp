@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <string>
 
 #include "cavea/base/error.h"
 #include "cavea/base/parallel.h"
@@ -34,6 +36,20 @@ double longest_side(const Box& box) {
   return std::max({side.x, side.y, side.z});
 }
 
+/// OpenVDB gives each file a random identifier, in its header as text. The same grid is to be the
+/// same bytes: it becomes that of no file.
+void clear_identifier(const std::filesystem::path& path) {
+  constexpr std::streamoff kPlace = 21;  // after the magic number, three versions and a flag
+  const std::string none = "00000000-0000-0000-0000-000000000000";
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  std::string found(none.size(), '\0');
+  file.seekg(kPlace).read(found.data(), std::streamsize(found.size()));
+  for (std::size_t k = 0; k < none.size(); ++k)
+    if ((found[k] == '-') != (none[k] == '-')) return;  // another version's header: as it is
+  file.seekp(kPlace).write(none.data(), std::streamsize(none.size()));
+  if (!file.flush()) throw OutputError(path.string() + ": cannot be written");
+}
+
 void write(const std::filesystem::path& file, const FloatGrid::Ptr& grid,
            const GridSettings& settings) {
   grid->setName(settings.name);
@@ -43,6 +59,7 @@ void write(const std::filesystem::path& file, const FloatGrid::Ptr& grid,
     out.write({grid});
     out.close();
   });
+  clear_identifier(file);
 }
 
 /// Samples a function block by block: evaluated where the band may be, a tile elsewhere.

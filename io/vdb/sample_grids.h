@@ -26,7 +26,8 @@ struct SampleShape {
 };
 
 /// Writes a narrow band of a function's values as a level set of floats. Voxels' centres are at
-/// whole multiples of the voxel's width; memory is proportional to the band.
+/// whole multiples of the voxel's width; memory is proportional to the band. The file is the same
+/// bytes at any number of threads.
 /// \throw OptionError: fewer than 8 voxels or a half width below 2; OutputError
 void write_sample_grid(const std::filesystem::path& file, const SampleShape& shape,
                        const GridSettings& settings);

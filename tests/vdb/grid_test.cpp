@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cavea/base/error.h"
+#include "cavea/base/parallel.h"
 #include "cavea/mesh/build.h"
 #include "cavea/vdb/sample_grids.h"
 #include "io/files.h"
@@ -219,6 +220,24 @@ TEST(SurfaceGrid, IsTheDistanceFromTheSurface) {
   EXPECT_NEAR(grid.voxel(), 0.05, 1e-6);
   for (const OrientedPoint& zero : grid.zeros()) EXPECT_NEAR(norm(zero.place), 1, 0.06);
   EXPECT_LT(grid.value({0, 0, 0}), 0);
+}
+
+TEST(SampleGrid, IsTheSameBytesAtAnyNumberOfThreads) {
+  const Folder folder;
+  const MeshData data = ball(12);
+  SurfaceTriangles surface{data.vertices, {}};
+  const TetMesh mesh = build(data).mesh;
+  for (const Triangle& s : mesh.triangles) surface.triangles.push_back(s.v);
+  const auto bytes = [&](int threads) {
+    run_in_arena(threads, [&] {
+      write_surface_grid(folder / "ball.vdb", surface, {90, 3, "phi"});
+    });
+    std::string all = content_of(folder / "ball.vdb");
+    run_in_arena(threads, [&] { write_sphere(folder, 60); });
+    return all + content_of(folder / "sphere.vdb");
+  };
+  const std::string expected = bytes(1);
+  for (const int threads : {2, 3, 8}) EXPECT_TRUE(bytes(threads) == expected) << threads;
 }
 
 }  // namespace
