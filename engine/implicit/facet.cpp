@@ -40,6 +40,16 @@ Facet facet_of(const LevelSet& level_set, const std::array<Vec3, 4>& corners,
   return facet;
 }
 
+/// The middle of the cubic that remesh() puts over an edge whose ends have the level set's normals
+/// (paper, section 3.1): its control points are a third of the edge away from the ends.
+Vec3 middle_of_curve(const LevelSet& level_set, const Vec3& a, const Vec3& b) {
+  const auto tangent = [&](const Vec3& p) {
+    const Vec3 n = normalized(level_set.gradient(p));
+    return normalized((b - a) - n * dot(b - a, n));
+  };
+  return (a + b) / 2 + (tangent(a) - tangent(b)) * (distance(a, b) / 8);
+}
+
 }  // namespace
 
 bool is_crossed(const std::array<double, 4>& values) {
@@ -56,6 +66,9 @@ bool is_cut_off_by(double tolerance, const LevelSet& level_set, const std::array
   if (!on(middle)) return true;
   for (int k = 0; k < facet.count; ++k)
     if (!on((facet.corners[k] + facet.corners[(k + 1) % facet.count]) * 0.5)) return true;
+  for (int k = 0; k < facet.count; ++k)
+    if (!on(middle_of_curve(level_set, facet.corners[k], facet.corners[(k + 1) % facet.count])))
+      return true;
   return false;
 }
 

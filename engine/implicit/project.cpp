@@ -51,13 +51,15 @@ bool stays(const TetMesh& mesh, const InterfaceVertex& vertex) {
 /// The distance from a point to the nearest zero on a line through it, no more than `most`: steps
 /// double until the sign changes on either side.
 double along_line(const LevelSet& level_set, const Vec3& p, const Vec3& direction, double most) {
-  constexpr double kFirstStep = 1e-6;  // of what may be: far below any tolerance
+  constexpr int kSteps = 20;  // the first one is a millionth of what may be: below any tolerance
   const double value = level_set.value(p);
   if (value == 0) return 0;
-  for (double step = kFirstStep * most; step < most; step *= 2)
+  for (int k = 0; k <= kSteps; ++k) {
+    const double step = std::ldexp(most, k - kSteps);
     for (const Vec3& way : {direction * step, -direction * step})
       if (const double there = level_set.value(p + way); (there < 0) != (value < 0))
         return step * zero_on_edge(level_set, p, p + way, value, there);
+  }
   return most;
 }
 

@@ -7,6 +7,7 @@
 #include "cavea/base/parallel.h"
 #include "cavea/implicit/box_mesh.h"
 #include "cavea/implicit/clear.h"
+#include "cavea/implicit/facet.h"
 #include "cavea/implicit/project.h"
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/statistics.h"
@@ -125,6 +126,24 @@ TEST(Refinement, FindsBothSidesOfAThinSheet) {
   EXPECT_TRUE(cut.report.open);
 }
 
+TEST(Refinement, SeesNormalsThatBendTheSmoothSurface) {
+  const std::array<Vec3, 4> corners = {
+      Vec3{0, 0, -0.5}, {1, 0, -0.5}, {0, 1, -0.5}, {0.3, 0.3, 0.5}};
+  const std::array<double, 4> values = {-0.5, -0.5, -0.5, 0.5};
+  const auto plane = [](const Vec3& p) { return p.z; };
+  // Beyond x = 0.5 there is a crease, and the normal at it leans to the other face.
+  const auto is_off = [&](double lean) {
+    const LevelSet level_set{
+        plane, [=](const Vec3& p) {
+          return p.x > 0.5 ? Vec3{std::sin(lean), 0, std::cos(lean)} : Vec3{0, 0, 1};
+        }};
+    return is_cut_off_by(0.01, level_set, corners, values);
+  };
+  EXPECT_FALSE(is_off(0));
+  EXPECT_FALSE(is_off(0.05)) << "an eighth of the edge of 0.5 times it is less than the tolerance";
+  EXPECT_TRUE(is_off(0.3));
+}
+
 TEST(Refinement, SparesWhatIsRequired) {
   MeshData data = box_mesh(kUnit, 64);
   data.required_tets = {5, 200};
@@ -228,6 +247,22 @@ TEST(Projection, PutsVerticesOntoTheFunction) {
   // Vertices on a sphere always lose: 3 / 0.3 of half the sagitta, about.
   EXPECT_NEAR(count(mesh).volume_of_ref.at(3), exact, 0.01 * exact);
   EXPECT_LT(count(mesh).volume_of_ref.at(3), exact);
+}
+
+TEST(Projection, MeasuresDistancesUpToATrianglesLongestEdge) {
+  const TetMesh mesh = cut_along(build(box_mesh(kUnit)).mesh, sphere).mesh;
+  double shortest = 1;
+  for (const Triangle& s : mesh.triangles) {
+    double longest = 0;
+    for (int k = 0; k < 3; ++k)
+      longest = std::max(longest, distance(mesh.points[s.v[k]], mesh.points[s.v[(k + 1) % 3]]));
+    if (s.ref == 10) shortest = std::min(shortest, longest);
+  }
+  const double away = 0.8 * shortest;
+  const auto larger = [=](const Vec3& p) { return sphere(p) - away; };
+  const double sagitta = distance_from(mesh, with_slope(sphere), 10);
+  EXPECT_LT(sagitta, 0.02);
+  EXPECT_NEAR(distance_from(mesh, with_slope(larger), 10), away + sagitta, 1e-6);
 }
 
 TEST(Projection, KeepsCurvesOnTheBoundary) {
