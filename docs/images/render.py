@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Draws two meshes side by side, each cut open so that its tetrahedra are seen.
+"""Draws meshes side by side, cut open so that their tetrahedra are seen.
 
-render.py BEFORE.mesh AFTER.mesh OUT.png: needs numpy and matplotlib. Reads Medit text files. The
-picture in README.md is the sample and what tools/quickstart makes of it (written as .mesh).
+Needs numpy and matplotlib. Reads Medit text files. The picture in README.md is the sample and what
+tools/quickstart makes of it (written as .mesh): render.py sample.png before=A.mesh after=B.mesh. How
+that in docs/implicit.md was made is told there.
 """
 
-import sys
+import argparse
 
 import matplotlib
 
@@ -18,8 +19,12 @@ FACES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
 VIEW = (24, -62)  # elevation and azimuth in degrees
 CUT = 0.5  # tets whose centre lies below this share of the width are taken away
 SIZE = (14, 7)  # inches
-COLOURS = {1: (0.55, 0.68, 0.83), 2: (0.93, 0.75, 0.42)}  # of surfaces, by reference of the tet
-INSIDE = {1: (0.90, 0.93, 0.97), 2: (0.99, 0.93, 0.80)}  # of faces that the cut laid open
+# Of surfaces, by reference of the tet.
+COLOURS = {1: (0.55, 0.68, 0.83), 2: (0.93, 0.75, 0.42), 3: (0.55, 0.68, 0.83),
+           4: (0.62, 0.78, 0.56)}
+# Of faces that the cut laid open.
+INSIDE = {1: (0.90, 0.93, 0.97), 2: (0.99, 0.93, 0.80), 3: (0.80, 0.87, 0.95),
+          4: (0.83, 0.93, 0.78)}
 
 
 def read(name):
@@ -49,12 +54,14 @@ def shade(normals):
     return 0.62 + 0.38 * np.clip(normals @ light, 0, 1)
 
 
-def draw(axes, name, title):
+def draw(axes, name, title, whole):
     points, tets, refs = read(name)
+    if whole:
+        points = points[:, (0, 2, 1)] * (1, -1, 1)
     outer = {tuple(key) for key in surface(tets)[2]}
     centres = points[tets].mean(axis=1)
     low, high = points.min(axis=0), points.max(axis=0)
-    kept = centres[:, 1] > low[1] + CUT * (high[1] - low[1])
+    kept = (centres[:, 1] > low[1] + CUT * (high[1] - low[1])) | whole
     tets, refs = tets[kept], refs[kept]
     owner, faces, keys = surface(tets)
     corners = points[faces]
@@ -67,21 +74,27 @@ def draw(axes, name, title):
                                            linewidths=0.25))
     for set_limits, a, b in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), low, high):
         set_limits(a, b)
-    axes.set_box_aspect(high - low, zoom=1.2)
+    axes.set_box_aspect(high - low, zoom=1.15)
     axes.view_init(*VIEW)
     axes.set_axis_off()
-    axes.set_title(title, fontsize=13, y=0.93)
+    axes.set_title(title, fontsize=13, y=1.02)
 
 
-def main(before, after, out):
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", metavar="OUT.png")
+    parser.add_argument("meshes", metavar="TITLE=MESH", nargs="+")
+    parser.add_argument("--whole", type=int, nargs="*", default=[], metavar="K",
+                        help="the K-th mesh, from 1, stands along y and is not cut open")
+    arguments = parser.parse_args()
     figure = plt.figure(figsize=SIZE)
-    for place, name, title in ((1, before, "before"), (2, after, "after")):
-        draw(figure.add_subplot(1, 2, place, projection="3d"), name, title)
+    for place, mesh in enumerate(arguments.meshes, 1):
+        title, name = mesh.split("=", 1)
+        axes = figure.add_subplot(1, len(arguments.meshes), place, projection="3d")
+        draw(axes, name, title, place in arguments.whole)
     figure.tight_layout()
-    figure.savefig(out, dpi=100, facecolor="white", bbox_inches="tight")
+    figure.savefig(arguments.out, dpi=100, facecolor="white", bbox_inches="tight")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
-        raise SystemExit(__doc__)
-    main(*sys.argv[1:])
+    main()

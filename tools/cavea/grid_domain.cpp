@@ -83,6 +83,17 @@ void set_hausd(const Box& box, Options& options) {
   if (!options.hausd) options.hausd = kHausd * distance(box.low, box.high);
 }
 
+/// Less than what remesh() would set where voxels are smaller than that: creases of a grid are about
+/// a voxel wide, and what is left of them with longer edges can be more than a voxel off.
+void set_hmin(const Box& box, const std::vector<NamedGrid>& grids, Options& options) {
+  constexpr double kHmin = 0.001, kVoxels = 0.5;
+  // A region may ask for less than any hmin that nobody gave.
+  if (options.hmin || options.hsiz || !options.size_regions.empty()) return;
+  double least = kHmin * distance(box.low, box.high);
+  for (const auto& [name, grid] : grids) least = std::min(least, kVoxels * grid->voxel());
+  options.hmin = std::min(least, options.hmax.value_or(least));
+}
+
 /// What remesh() would set, but more where voxels do not allow chords as short as that: the smooth
 /// surface is to reach from the cut's triangles to the level set.
 void set_bulge(const std::vector<CutReport>& cuts, Options& options) {
@@ -115,6 +126,7 @@ GridCut cut_by_grids(const RemeshArguments& arguments, Options& options) {
   set_hausd(box, options);
   std::vector<StackedLevelSet> stack;
   for (const NamedGrid& named : grids) stack.push_back(stacked(named, options));
+  set_hmin(box, grids, options);
   StackResult cut = mesh_level_sets(box, stack, cut_options);
   set_bulge(cut.reports, options);
   GridCut out{std::move(cut.mesh), {}};
