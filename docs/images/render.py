@@ -2,8 +2,8 @@
 """Draws meshes side by side, cut open so that their tetrahedra are seen.
 
 Needs numpy and matplotlib. Reads Medit text files. The picture in README.md is the sample and what
-tools/quickstart makes of it (written as .mesh): render.py sample.png before=A.mesh after=B.mesh. How
-that in docs/implicit.md was made is told there.
+tools/quickstart makes of it (written as .mesh): render.py sample.png before=A.mesh after=B.mesh.
+docs/implicit.md tells how its picture was made.
 """
 
 import argparse

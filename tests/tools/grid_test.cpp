@@ -101,6 +101,18 @@ TEST_F(GridRunTest, GivesTheSameBytesAtAnyNumberOfThreads) {
   for (const char* threads : {"2", "3", "8"}) EXPECT_TRUE(run(threads) == expected) << threads;
 }
 
+TEST_F(GridRunTest, LetsEdgesBeHalfAVoxelLong) {
+  make_grid("sphere", "512");
+  const auto hmin = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"implicit", "sphere.vdb", "-o", "out.meshb", "--hausd", "0.02",
+                                 "--report", "r.json", "--quiet"});
+    EXPECT_EQ(cavea(words).status, 0);
+    return nlohmann::json::parse(read_text(file("r.json")))["options"]["hmin"].get<double>();
+  };
+  EXPECT_NEAR(hmin({}), 0.5 / 512, 1e-9);
+  EXPECT_EQ(hmin({"--hmin", "0.01"}), 0.01);
+}
+
 /// Negative in the samples `torus` and `sphere`.
 double in_torus(const Vec3& p) {
   return std::hypot(std::hypot(p.x - 0.5, p.y - 0.5) - 0.28, p.z - 0.5) - 0.12;
