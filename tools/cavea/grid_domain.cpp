@@ -83,8 +83,8 @@ void set_hausd(const Box& box, Options& options) {
   if (!options.hausd) options.hausd = kHausd * distance(box.low, box.high);
 }
 
-/// Less than what remesh() would set where voxels are smaller than that: creases of a grid are about
-/// a voxel wide, and what is left of them with longer edges can be more than a voxel off.
+/// Less than what remesh() would set where voxels are smaller than that: creases of a grid are
+/// about a voxel wide, and what is left of them with longer edges can be more than a voxel off.
 void set_hmin(const Box& box, const std::vector<NamedGrid>& grids, Options& options) {
   constexpr double kHmin = 0.001, kVoxels = 0.5;
   // A region may ask for less than any hmin that nobody gave.
