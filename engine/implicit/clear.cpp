@@ -27,13 +27,14 @@ constexpr int kMostRounds = 8;
 
 class Clearing {
  public:
-  Clearing(TetMesh& mesh, const LevelSet& level_set, double tolerance, std::span<const char> fixed)
+  Clearing(TetMesh& mesh, const LevelSet& level_set, double tolerance, const ClearScope& scope)
       : mesh_(mesh),
         level_set_(level_set),
         tolerance_(tolerance),
-        fixed_(fixed),
+        scope_(scope),
         moves_(mesh),
-        values_(mesh.points.size()) {
+        values_(mesh.points.size()),
+        earlier_(interface_vertices(mesh, scope.earlier)) {
     evaluate();
   }
 
@@ -42,15 +43,23 @@ class Clearing {
       if (!is_fixed(v)) move_onto(v);
     evaluate();  // as the cut will see them
     for (int round = 0; round < kMostRounds; ++round) {
-      const std::vector<VertexId> pinching = pinching_vertices(mesh_, values_);
+      const std::vector<VertexId> pinching = pinching_vertices(mesh_, values_, scope_.split);
       if (pinching.empty()) return;
       for (const VertexId v : pinching)
-        if (!is_fixed(v)) move_away(v);
+        if (!is_fixed(v) && earlier_at(v).empty()) move_away(v);
     }
   }
 
  private:
-  bool is_fixed(VertexId v) const { return !fixed_.empty() && fixed_[v]; }
+  bool is_fixed(VertexId v) const { return !scope_.fixed.empty() && scope_.fixed[v]; }
+  bool is_split(TetId t) const { return scope_.split.empty() || scope_.split[t]; }
+
+  /// The earlier level sets that a vertex is on.
+  std::span<const std::size_t> earlier_at(VertexId v) const {
+    const auto found = std::ranges::lower_bound(earlier_, v, {}, &InterfaceVertex::id);
+    if (found == earlier_.end() || found->id != v) return {};
+    return found->level_sets;
+  }
 
   void evaluate() {
     parallel_for(values_.size(),
@@ -62,7 +71,7 @@ class Clearing {
     parallel_for(mesh_.tets.size(), [&](std::size_t t) {
       const auto& tet = mesh_.tets[t];
       for (const auto& e : kEdgeVertices)
-        if ((values_[tet[e[0]]] < 0) != (values_[tet[e[1]]] < 0))
+        if (is_split(TetId(t)) && (values_[tet[e[0]]] < 0) != (values_[tet[e[1]]] < 0))
           for (const int k : {e[0], e[1]}) atomic_or(is_end[tet[k]], char{1});
     });
     std::vector<VertexId> ends;
@@ -81,10 +90,11 @@ class Clearing {
     const auto stays_near = [&](std::span<const TetId> ball) {
       values_[v] = level_set_.value(mesh_.points[v]);
       if (std::abs(values_[v]) < kOn * edge * slope) values_[v] = 0;  // of no sign
-      return std::ranges::none_of(ball, [&](TetId t) { return is_off(t); });
+      return std::ranges::none_of(ball, [&](TetId t) { return is_split(t) && is_off(t); });
     };
-    if (!moves_.move(v, moves_.to_zero(v, std::array{&level_set_}, 2 * kNear * edge), kLimits,
-                     stays_near))
+    std::vector<const LevelSet*> wanted = {&level_set_};
+    for (const std::size_t k : earlier_at(v)) wanted.push_back(&scope_.earlier[k].level_set);
+    if (!moves_.move(v, moves_.to_zero(v, wanted, 2 * kNear * edge), kLimits, stays_near))
       values_[v] = before;
   }
 
@@ -115,16 +125,17 @@ class Clearing {
   TetMesh& mesh_;
   const LevelSet& level_set_;
   const double tolerance_;
-  const std::span<const char> fixed_;
+  const ClearScope& scope_;
   VertexMoves moves_;
   std::vector<double> values_;
+  const std::vector<InterfaceVertex> earlier_;
 };
 
 }  // namespace
 
 void clear_for_cut(TetMesh& mesh, const LevelSet& level_set, double tolerance,
-                   std::span<const char> fixed) {
-  Clearing(mesh, level_set, tolerance, fixed).run();
+                   const ClearScope& scope) {
+  Clearing(mesh, level_set, tolerance, scope).run();
 }
 
 }  // namespace cavea

@@ -42,7 +42,10 @@ class StackMesher {
     for (std::size_t k = 0; k < stack_.size(); ++k)
       named(k, [&] { refine_near(mesh_, shifted_[k], zeros_[k], stack_[k].refine); });
     for (std::size_t k = 0; k < stack_.size(); ++k) named(k, [&] { make_room(k); });
-    for (std::size_t k = 0; k < stack_.size(); ++k) named(k, [&] { cut(k); });
+    for (std::size_t k = 0; k < stack_.size(); ++k) {
+      named(k, [&] { cut(k); });
+      earlier_.push_back({shifted_[k], interface_ref(options_, k)});
+    }
     keep_side();
     return {std::move(mesh_), std::move(reports_)};
   }
@@ -69,7 +72,7 @@ class StackMesher {
   void make_room(std::size_t k) {
     const RefineOptions again{kClearing * stack_[k].refine.tolerance, stack_[k].refine.shortest};
     for (int round = 0; round < kMostClearings; ++round) {
-      clear_for_cut(mesh_, shifted_[k], again.tolerance, vertices_of_earlier(k));
+      clear_for_cut(mesh_, shifted_[k], again.tolerance, {.fixed = vertices_of_earlier(k)});
       if (refine_near(mesh_, shifted_[k], zeros_[k], again) == 0) break;
     }
   }
@@ -91,7 +94,17 @@ class StackMesher {
     return is_of;
   }
 
+  /// Where the level set meets those along which the mesh is cut already.
+  void make_room_on_earlier(std::size_t k) {
+    std::vector<char> split(mesh_.tets.size());
+    parallel_for(split.size(),
+                 [&](std::size_t t) { split[t] = mesh_.tet_refs[t] == options_.material.outside; });
+    clear_for_cut(mesh_, shifted_[k], kClearing * stack_[k].refine.tolerance,
+                  {.split = std::move(split), .earlier = earlier_});
+  }
+
   void cut(std::size_t k) {
+    if (k > 0) make_room_on_earlier(k);
     CutOptions options = options_;
     options.material.inside = inside_ref(options_, k);
     options.interface_ref = interface_ref(options_, k);
@@ -130,6 +143,7 @@ class StackMesher {
   TetMesh mesh_;
   std::vector<LevelSet> shifted_;  ///< with gradients, less the isovalue
   std::vector<std::vector<OrientedPoint>> zeros_;
+  std::vector<MeshedLevelSet> earlier_;  ///< those along which mesh_ is cut
   std::vector<CutReport> reports_;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cavea/base/parallel.h"
+#include "cavea/implicit/interface_vertices.h"
 #include "cavea/implicit/vertex_moves.h"
 
 namespace cavea {
@@ -17,30 +18,6 @@ constexpr double kReach = 0.25;
 
 /// As in the last phase of remesh(): what is better than the floor may become a little worse.
 constexpr MoveLimits kLimits{.share = 0.9, .floor = 0.4};
-
-/// A vertex and, by their places, the level sets that it is to be on, rising.
-struct InterfaceVertex {
-  VertexId id;
-  std::vector<std::size_t> level_sets;
-};
-
-/// By rising vertices.
-std::vector<InterfaceVertex> interface_vertices(const TetMesh& mesh,
-                                                std::span<const MeshedLevelSet> level_sets) {
-  std::vector<std::pair<VertexId, std::size_t>> pairs;
-  for (const Triangle& s : mesh.triangles)
-    for (std::size_t k = 0; k < level_sets.size() && s.alive(); ++k)
-      if (s.ref == level_sets[k].interface_ref)
-        for (const VertexId v : s.v) pairs.emplace_back(v, k);
-  std::ranges::sort(pairs);
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  std::vector<InterfaceVertex> vertices;
-  for (const auto& [v, k] : pairs) {
-    if (vertices.empty() || vertices.back().id != v) vertices.push_back({v, {}});
-    vertices.back().level_sets.push_back(k);
-  }
-  return vertices;
-}
 
 bool stays(const TetMesh& mesh, const InterfaceVertex& vertex) {
   const Tag tags = mesh.vertex_tags[vertex.id];

@@ -2,16 +2,11 @@
 #include <cstdint>
 #include <span>
 
+#include "cavea/implicit/interface_vertices.h"
 #include "cavea/implicit/level_set.h"
 #include "cavea/mesh/tet_mesh.h"
 
 namespace cavea {
-
-/// A level set, with a gradient, and the reference of the triangles that stand for it.
-struct MeshedLevelSet {
-  LevelSet level_set;
-  std::int32_t interface_ref = 10;
-};
 
 /// Moves the vertices of the triangles of one reference onto the level set, by Newton steps, or a
 /// part of the way where the tets at them would become worse than a finished mesh's are to be.

@@ -140,7 +140,7 @@ bool take_off_pinched(const TetMesh& mesh, const Buckets& balls, std::span<const
 
 /// As if no vertex pinched the interface.
 std::vector<std::int8_t> near_signs(const TetMesh& mesh, std::span<const double> values,
-                                    std::span<const char> split = {}) {
+                                    std::span<const char> split) {
   std::vector<std::int8_t> signs(values.size());
   parallel_for(values.size(), [&](std::size_t v) { signs[v] = sign_off_interface(values[v]); });
   put_on_interface(mesh, values, split, signs);
@@ -168,8 +168,10 @@ std::vector<std::int8_t> cut_signs(const TetMesh& mesh, std::span<const double> 
   return signs;
 }
 
-std::vector<VertexId> pinching_vertices(const TetMesh& mesh, std::span<const double> values) {
-  const std::vector<std::int8_t> near = near_signs(mesh, values), signs = cut_signs(mesh, values);
+std::vector<VertexId> pinching_vertices(const TetMesh& mesh, std::span<const double> values,
+                                        std::span<const char> split) {
+  const std::vector<std::int8_t> near = near_signs(mesh, values, split),
+                                 signs = cut_signs(mesh, values, split);
   std::vector<VertexId> pinching;
   for (std::size_t v = 0; v < signs.size(); ++v)
     if (near[v] == 0 && signs[v] != 0) pinching.push_back(VertexId(v));

@@ -22,7 +22,8 @@ std::vector<std::int8_t> cut_signs(const TetMesh& mesh, std::span<const double> 
                                    std::span<const char> split = {});
 
 /// The vertices that the level set passes so near to, but that would pinch it if they were on it.
-std::vector<VertexId> pinching_vertices(const TetMesh& mesh, std::span<const double> values);
+std::vector<VertexId> pinching_vertices(const TetMesh& mesh, std::span<const double> values,
+                                        std::span<const char> split = {});
 
 /// The side of a tet without vertices of both signs: of its vertices off the interface, or, where
 /// there are none, of the sum of its values.
