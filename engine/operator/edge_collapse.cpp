@@ -70,6 +70,8 @@ Verdict check_link(OperatorContext& c, const std::vector<TriangleId>& fan) {
     if (index_in(t, s.q) < 3) continue;
     const int ip = index_in(t, s.p);
     const VertexId a = t.v[(ip + 1) % 3], b = t.v[(ip + 2) % 3];
+    // Triangle qab could be there, or its place be a face of the interface.
+    if (q_frozen && (c.tags(a) & c.tags(b) & tag::kFrozen)) return Verdict::kFrozen;
     for (VertexId r : {a, b}) {
       if (is_third(s, r)) continue;
       // An edge qr could stand in another part, out of sight.
