@@ -116,6 +116,8 @@ class SurfaceModel {
   void set_sizes();
   void set_anchors(TetMesh& mesh) const;
   double curvature_of_fan(std::int32_t facet, int corner, std::vector<std::int32_t>& seen) const;
+  std::vector<double> curvatures() const;
+  double averaged(const std::vector<double>& kappas, std::int32_t v) const;
   double hausd_of(std::int32_t reference) const;
   double vertex_tolerance(std::int32_t v) const;
   double bulge_between(std::int32_t v, std::int32_t w) const {

@@ -40,7 +40,7 @@ double SurfaceModel::curvature_of_fan(std::int32_t facet, int corner,
   const Vec3 e1 = normalized(cross(n, helper)), e2 = cross(n, e1);
   Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double steepest = 0;
+  double steepest = 0, total = 0;
   for (std::int32_t q : seen) {
     const Vec3 d = points_[q] - p;
     const double l2 = norm2(d);
@@ -50,42 +50,63 @@ double SurfaceModel::curvature_of_fan(std::int32_t facet, int corner,
     if (!(r2 > 0)) continue;
     steepest = std::max(steepest, std::abs(kappa));
     const Eigen::Vector3d row(x * x / r2, 2 * x * y / r2, y * y / r2);
-    normal_matrix += row * row.transpose();
-    right += kappa * row;
+    const double weight = l2;  // what q is off by tells in kappa the more, the shorter d is
+    normal_matrix += weight * row * row.transpose();
+    right += weight * kappa * row;
+    total += weight;
   }
   // Fewer than three independent directions leave the form undetermined: then the steepest edge.
   constexpr double kIndependent = 1e-3;
   const Eigen::LDLT<Eigen::Matrix3d> ldlt(normal_matrix);
-  if (seen.size() < 3 || !(ldlt.vectorD().minCoeff() > kIndependent)) return steepest;
+  if (seen.size() < 3 || !(ldlt.vectorD().minCoeff() > kIndependent * total)) return steepest;
   const Eigen::Vector3d form = ldlt.solve(right);
   const double mean = (form[0] + form[2]) / 2;
   const double radius = std::hypot((form[0] - form[2]) / 2, form[1]);
   return std::min(std::abs(mean) + radius, 2 * steepest);
 }
 
-/// h = sqrt(9 eps / (2 kappa)) at each vertex, smallest over its fans and its curve (paper, section
-/// 4.2); zero curvature gives hmax.
-void SurfaceModel::set_sizes() {
-  auto size_of = [&](std::size_t v, double kappa) {
-    const double tolerance = vertex_tolerance(std::int32_t(v));
-    const double h = kappa > 0 ? std::sqrt(4.5 * tolerance / kappa) : settings_.hmax;
-    return std::clamp(h, settings_.hmin, settings_.hmax);
-  };
-  sizes_.assign(points_.size(), settings_.hmax);
+/// The largest principal curvature at each vertex, over its smooth fans.
+std::vector<double> SurfaceModel::curvatures() const {
+  std::vector<double> kappas(points_.size(), 0);
   parallel_ranges(points_.size(), 256, [&](std::size_t begin, std::size_t end) {
     std::vector<std::int32_t> seen;
-    for (std::size_t v = begin; v < end; ++v) {
-      double kappa = 0;
+    for (std::size_t v = begin; v < end; ++v)
       for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i) {
         const std::int32_t f = vertex_facets_[i];
         const int corner = facets_[f][0] == std::int32_t(v)   ? 0
                            : facets_[f][1] == std::int32_t(v) ? 1
                                                               : 2;
-        kappa = std::max(kappa, curvature_of_fan(f, corner, seen));
+        kappas[v] = std::max(kappas[v], curvature_of_fan(f, corner, seen));
         if (vertex_curve_[v] == kNone) break;  // a single fan: all its facets give the same
       }
-      sizes_[v] = size_of(v, kappa);
-    }
+  });
+  return kappas;
+}
+
+/// The curvature at a vertex, averaged with those around if they are off the feature curves, too.
+/// Cut surfaces and scans are rough at the scale of their facets, where a size that follows each
+/// vertex would ask for several times the tets that the shape does.
+double SurfaceModel::averaged(const std::vector<double>& kappas, std::int32_t v) const {
+  if (vertex_curve_[v] != kNone) return kappas[v];
+  double sum = 2 * kappas[v], weight = 2;  // twice, as two facets share each of those around
+  for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i)
+    for (const std::int32_t q : facets_[vertex_facets_[i]])
+      if (q != v && vertex_curve_[q] == kNone) sum += kappas[q], ++weight;
+  return sum / weight;
+}
+
+/// h = sqrt(9 eps / (2 kappa)) at each vertex, smallest over its fans and its curve (paper, section
+/// 4.2); zero curvature gives hmax.
+void SurfaceModel::set_sizes() {
+  auto size_of = [&](std::int32_t v, double kappa) {
+    const double tolerance = vertex_tolerance(v);
+    const double h = kappa > 0 ? std::sqrt(4.5 * tolerance / kappa) : settings_.hmax;
+    return std::clamp(h, settings_.hmin, settings_.hmax);
+  };
+  const std::vector<double> kappas = curvatures();
+  sizes_.resize(points_.size());
+  parallel_for(points_.size(), [&](std::size_t v) {
+    sizes_[v] = size_of(std::int32_t(v), averaged(kappas, std::int32_t(v)));
   });
   for (const CurveEdge& c : curves_)
     for (int end = 0; end < 2; ++end) {
@@ -95,7 +116,7 @@ void SurfaceModel::set_sizes() {
                  b = points_[n.v[0] == c.v[end] ? n.v[1] : n.v[0]];
       const double product = distance(p, a) * distance(p, b) * distance(a, b);
       const double kappa = product > 0 ? 2 * norm(cross(a - p, b - p)) / product : 0;
-      sizes_[c.v[end]] = std::min(sizes_[c.v[end]], size_of(std::size_t(c.v[end]), kappa));
+      sizes_[c.v[end]] = std::min(sizes_[c.v[end]], size_of(c.v[end], kappa));
     }
 }
 
