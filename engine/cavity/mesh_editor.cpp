@@ -226,7 +226,7 @@ void MeshEditor::commit(const Cavity& cavity) {
 void MeshEditor::move(VertexId v, const NewVertex& to, const std::vector<TetId>& tets,
                       const std::vector<float>& qualities) {
   // Smaller changes do not turn a refusal into an acceptance often enough to pay for asking again.
-  constexpr float kQualityChange = 0.03f;
+  constexpr float kSwapAgain = 0.03f, kMoveAgain = 0.02f;  // by quality
   constexpr double kLengthChange = 0.05;  // in wanted sizes
   const bool far = distance(mesh_.points[v], to.point) > kLengthChange * to.size;
   mesh_.points[v] = to.point;
@@ -235,9 +235,10 @@ void MeshEditor::move(VertexId v, const NewVertex& to, const std::vector<TetId>&
   mesh_.anchors[v] = to.anchor;
   for (std::size_t i = 0; i < tets.size(); ++i) {
     const TetId t = tets[i];
-    std::uint8_t ask = tet_flag::kAskMove;
-    if (std::abs(mesh_.qualities[t] - qualities[i]) > kQualityChange) ask |= tet_flag::kAskSwap;
-    if (far) ask |= tet_flag::kAskLength;
+    const float change = std::abs(mesh_.qualities[t] - qualities[i]);
+    std::uint8_t ask = far ? tet_flag::kAskLength | tet_flag::kAskMove : 0;
+    if (change > kMoveAgain) ask |= tet_flag::kAskMove;
+    if (change > kSwapAgain) ask |= tet_flag::kAskSwap;
     mesh_.qualities[t] = qualities[i];
     mesh_.tet_flags[t] |= ask;
   }

@@ -39,7 +39,7 @@ Phase rough(const ResolvedOptions& o) {
 }
 
 Phase fine(const ResolvedOptions& o) {
-  Phase p{"fine", base(o), 3, 0.02, 8};
+  Phase p{"fine", base(o), 3, 0.035, 8};
   p.cycle.shake_below = 0.72;
   p.ask = tet_flag::kAskLength;
   p.cycle.limits.shortest_made = 0.6;
@@ -59,7 +59,7 @@ Phase polish(const ResolvedOptions& o) {
   p.cycle.limits.quality_floor = 0.4;
   p.cycle.sweeps = 4;
   // In shells of better tets alone, hardly any swap raises the worst by enough.
-  p.cycle.swap_ceiling = 0.8;
+  p.cycle.swap_ceiling = 0.75;
   p.cycle.repair_below = 0.45;
   p.cycle.reconnect_below = 0.5;
   p.resize = false;
