@@ -23,13 +23,13 @@ double longest_edge2(const Corners& t) {
 }
 
 /// Calls f(u, v) on the lattice of n intervals an edge, and on the edge midpoints and the centroid
-/// where the lattice misses them.
+/// where the lattice misses them: these first, since they are mostly the farthest.
 template <class F>
 void for_each_sample(int n, F&& f) {
+  if (n % 3 != 0) f(1.0 / 3, 1.0 / 3);
+  if (n % 2 != 0) f(0.5, 0.0), f(0.5, 0.5), f(0.0, 0.5);
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n - j; ++i) f(double(i) / n, double(j) / n);
-  if (n % 2 != 0) f(0.5, 0.0), f(0.5, 0.5), f(0.0, 0.5);
-  if (n % 3 != 0) f(1.0 / 3, 1.0 / 3);
 }
 
 /// A sample's distance, and hausd at the facet that it is from or to.
@@ -63,10 +63,12 @@ int intervals(const Corners& k, double step) {
 
 /// Samples those triangles that have no samples yet: distance_from() makes a function of the sample
 /// x for each triangle in turn, so that a search may begin where it ended for the sample before.
-/// Never where another triangle's ended: which one that is depends on the threads.
+/// Never where another triangle's ended: which one that is depends on the threads. Its second
+/// argument is a distance so small that it need not be exact: it would not raise any maximum.
 template <class At, class DistanceFrom>
-void sample_all(std::span<const Corners> triangles, const DistanceSampling& sampling, At&& at,
-                DistanceFrom&& distance_from, std::vector<Sampled>& samples) {
+void sample_all(std::span<const Corners> triangles, const DistanceSampling& sampling,
+                double least_hausd, At&& at, DistanceFrom&& distance_from,
+                std::vector<Sampled>& samples) {
   parallel_for(
       triangles.size(),
       [&](std::size_t t) {
@@ -75,12 +77,13 @@ void sample_all(std::span<const Corners> triangles, const DistanceSampling& samp
         if (s.count > 0) return;
         auto distance = distance_from(t);
         auto sample = [&](int n) {
-          s = {};
           for_each_sample(n, [&](double u, double v) {
             const Vec3 x = at(t, u, v);
-            s.add(x, distance(x));
+            const double small = sampling.enough > 0 ? std::min(s.max, s.worst * least_hausd) : -1;
+            s.add(x, distance(x, small));
           });
         };
+        s = {};
         const int n = intervals(k, sampling.step);
         if (n > kMinIntervals && sampling.enough > 0) sample(kMinIntervals);
         if (s.count == 0 || s.worst > sampling.enough) sample(n);
@@ -140,14 +143,21 @@ Vec3 on_flat(const Corners& t, double u, double v) {
   return (1 - u - v) * t[0] + u * t[1] + v * t[2];
 }
 
+double least_hausd_of(const SurfaceModel& model) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 0; f < model.facets(); ++f)
+    least = std::min(least, model.hausd(std::int32_t(f)));
+  return least;
+}
+
 void sample_output(const OutputSurface& out, const SurfaceModel& model, const PatchTree& tree,
                    const DistanceSampling& sampling, std::vector<Sampled>& samples) {
   sample_all(
-      out.corners, sampling,
+      out.corners, sampling, least_hausd_of(model),
       [&](std::size_t t, double u, double v) { return on_flat(out.corners[t], u, v); },
       [&](std::size_t t) {
-        return [&, t, last = NearestOnModel{}](const Vec3& x) mutable {
-          last = tree.nearest(x, last);
+        return [&, t, last = NearestOnModel{}](const Vec3& x, double small) mutable {
+          last = tree.nearest(x, last, small);
           const double hausd = last.facet == kNone ? 1 : model.hausd(last.facet);
           return Measured{std::sqrt(last.place.distance2), hausd, std::int32_t(t)};
         };
@@ -160,14 +170,14 @@ void sample_model(const OutputSurface& out, const SurfaceModel& model,
                   std::vector<Sampled>& samples) {
   const FacetTree tree(out.corners);
   sample_all(
-      facets, sampling,
+      facets, sampling, least_hausd_of(model),
       [&](std::size_t f, double u, double v) {
         return model.patch_of_facet(std::int32_t(f)).at(u, v);
       },
       [&](std::size_t f) {
         const double hausd = model.hausd(std::int32_t(f));
-        return [&tree, hausd, last = NearestFacet{}](const Vec3& x) mutable {
-          last = tree.nearest_from(x, last);
+        return [&tree, hausd, last = NearestFacet{}](const Vec3& x, double small) mutable {
+          last = tree.nearest_from(x, last, small);
           return Measured{std::sqrt(last.distance2), hausd, last.facet};
         };
       },

@@ -13,7 +13,7 @@ namespace cavea {
 /// How far the samples of one surface are from another.
 struct OneSidedDistance {
   double max = 0;
-  double mean = 0;   ///< weighted by area
+  double mean = 0;   ///< weighted by area; a bound if not all samples are asked for
   double worst = 0;  ///< largest in hausd of the facets there, which may differ by reference
   double hausd = 0;  ///< that of the worst sample's facet
   Vec3 where;        ///< the worst sample
@@ -69,7 +69,8 @@ class DistanceMeter {
 /// always among them. Each sample is measured against all of the other surface, whatever its
 /// patches. Infinite from a surface that is empty; 0 of one that is. The same bits at any number of
 /// threads. \param step greater than 0 \param enough where
-/// corners, edge midpoints and centroid are all within so many hausd, no more samples are taken
+/// corners, edge midpoints and centroid are all within so many hausd, no more samples are taken; if
+/// not 0, samples that raise no maximum are not measured exactly
 /// \param most triangles and facets with samples beyond so many
 /// hausd are listed
 SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel& model,

@@ -44,10 +44,10 @@ NearestFacet FacetTree::nearest(const Vec3& p, double bound2) const {
   return best;
 }
 
-NearestFacet FacetTree::nearest_from(const Vec3& p, const NearestFacet& hint) const {
+NearestFacet FacetTree::nearest_from(const Vec3& p, const NearestFacet& hint, double small) const {
   if (hint.slot == kNone) return nearest(p);
   NearestFacet best = on(p, std::size_t(hint.slot));
-  improve(p, best);
+  if (small < 0 || best.distance2 > small * small) improve(p, best);
   return best;
 }
 

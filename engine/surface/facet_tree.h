@@ -32,7 +32,8 @@ class FacetTree {
                        double bound2 = std::numeric_limits<double>::infinity()) const;
 
   /// The same without bound, sooner where `hint`, found for another point, is near to p too.
-  NearestFacet nearest_from(const Vec3& p, const NearestFacet& hint) const;
+  /// \param small the hint's triangle will do if it is so near
+  NearestFacet nearest_from(const Vec3& p, const NearestFacet& hint, double small = -1) const;
 
  private:
   NearestFacet on(const Vec3& p, std::size_t slot) const;

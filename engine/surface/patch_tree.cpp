@@ -89,7 +89,7 @@ PatchTree::PatchTree(const SurfaceModel& model)
   });
 }
 
-NearestOnModel PatchTree::nearest(const Vec3& p, const NearestOnModel& hint) const {
+NearestOnModel PatchTree::nearest(const Vec3& p, const NearestOnModel& hint, double small) const {
   NearestOnModel best;
   double bound2 = best.place.distance2, bound = bound2;
   auto look = [&](std::size_t slot) {
@@ -104,6 +104,7 @@ NearestOnModel PatchTree::nearest(const Vec3& p, const NearestOnModel& hint) con
     bound2 = r.distance2, bound = std::sqrt(bound2);
   };
   if (hint.slot != kNone) look(std::size_t(hint.slot));
+  if (bound <= small) return best;
   const std::int32_t seen = hint.slot;
   tree_.visit_near(p, bound2, [&](std::size_t slot) {
     if (std::int32_t(slot) != seen) look(slot);

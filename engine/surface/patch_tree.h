@@ -35,9 +35,9 @@ class PatchTree {
  public:
   explicit PatchTree(const SurfaceModel& model);
 
-  /// The place nearest to p. `hint`, found for another point, makes it
-  /// sooner where it is near to p too.
-  NearestOnModel nearest(const Vec3& p, const NearestOnModel& hint = {}) const;
+  /// The place nearest to p. `hint`, found for another point, makes it sooner where it is near to p
+  /// too. \param small any place of the hint's patch that is so near will do
+  NearestOnModel nearest(const Vec3& p, const NearestOnModel& hint = {}, double small = -1) const;
 
  private:
   struct Leaf {
