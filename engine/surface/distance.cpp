@@ -92,7 +92,8 @@ void sample_all(std::span<const Corners> triangles, const DistanceSampling& samp
       kGrain);
 }
 
-OneSidedDistance fold(const std::vector<Sampled>& samples) {
+OneSidedDistance fold(const std::vector<Sampled>& samples, const DistanceSampling& sampling) {
+  const bool all_exact = sampling.enough == 0;
   Sampled total;
   for (const Sampled& s : samples) {
     total.max = std::max(total.max, s.max);
@@ -100,7 +101,7 @@ OneSidedDistance fold(const std::vector<Sampled>& samples) {
     total.sum += s.area * (s.sum / s.count);
     total.area += s.area;
   }
-  return {std::max(total.max, 0.0), total.area > 0 ? total.sum / total.area : 0,
+  return {std::max(total.max, 0.0), all_exact && total.area > 0 ? total.sum / total.area : 0,
           std::max(total.worst, 0.0), total.hausd, total.where};
 }
 
@@ -306,10 +307,10 @@ SurfaceDistance DistanceMeter::measure(const TetMesh& mesh) {
   sample_output(m.out, m.model, m.tree, m.sampling, m.of_out);
   sample_model(m.out, m.model, m.facets, m.sampling, m.of_model);
   SurfaceDistance result;
-  result.out_to_model = fold(m.of_out);
+  result.out_to_model = fold(m.of_out, m.sampling);
   result.far_triangles = beyond(
       m.of_out, m.sampling.most, [&](std::size_t i) { return m.out.ids[i]; }, m.out.ids);
-  result.model_to_out = fold(m.of_model);
+  result.model_to_out = fold(m.of_model, m.sampling);
   result.far_facets = beyond(
       m.of_model, m.sampling.most, [](std::size_t i) { return std::int32_t(i); }, m.out.ids);
   return result;

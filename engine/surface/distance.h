@@ -13,7 +13,7 @@ namespace cavea {
 /// How far the samples of one surface are from another.
 struct OneSidedDistance {
   double max = 0;
-  double mean = 0;   ///< weighted by area; a bound if not all samples are asked for
+  double mean = 0;   ///< weighted by area; 0 if not all samples are asked for
   double worst = 0;  ///< largest in hausd of the facets there, which may differ by reference
   double hausd = 0;  ///< that of the worst sample's facet
   Vec3 where;        ///< the worst sample

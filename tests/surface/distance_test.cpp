@@ -190,9 +190,8 @@ void expect_same(const std::vector<FarSample>& a, const std::vector<FarSample>& 
   }
 }
 
-TEST(DistanceMeter, SaysOfEachMeshWhatIsSaidOfItAlone) {
+void expect_as_alone(const DistanceSampling& sampling) {
   const auto ball = modelled_ball(6);
-  const DistanceSampling sampling{kStep, 0.5, 0.2};
   constexpr unsigned kSeed = 11;
   SCOPED_TRACE(kSeed);
   std::mt19937 random(kSeed);
@@ -213,6 +212,13 @@ TEST(DistanceMeter, SaysOfEachMeshWhatIsSaidOfItAlone) {
   }
   mesh.triangles.clear();
   EXPECT_EQ(meter.measure(mesh).model_to_out.max, std::numeric_limits<double>::infinity());
+}
+
+TEST(DistanceMeter, SaysOfEachMeshWhatIsSaidOfItAlone) {
+  for (const double enough : {0.0, 0.2}) {
+    SCOPED_TRACE(enough);
+    expect_as_alone({kStep, 0.5, enough});
+  }
 }
 
 std::vector<std::uint64_t> bits(const SurfaceDistance& d) {
