@@ -52,12 +52,21 @@ constexpr double kSoundQuality = 0.3;
 /// in any case.
 enum class Effort { kWhereNeeded, kMend };
 
+std::string to_text(const Vec3& p) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+}
+
 /// One run of remesh(): the mesh it works on and what it reports.
 class Run {
  public:
   Run(const TetMesh& input, const SizeField& field, const Options& options,
       Effort effort = Effort::kWhereNeeded)
-      : mesh_(input), field_(field), options_(options), effort_(effort), budget_(options.max_tets) {
+      : mesh_(input),
+        input_(input),
+        field_(field),
+        options_(options),
+        effort_(effort),
+        budget_(options.max_tets) {
     compact(mesh_);
     if (options.optim) field_ = own_sizes(mesh_);
     r_ = resolve(options, box_diagonal(mesh_), wished_range(mesh_, field_));
@@ -348,16 +357,24 @@ class Run {
     report_.hgrad = r_.hgrad;
     crossings_ = find_crossings(mesh_);
     set_targets();
+    if (!crossings_.empty()) warn_of_crossings_in(input_);
+  }
+
+  /// A result that crosses itself may have that from its input.
+  void warn_of_crossings_in(const TetMesh& input) {
+    const std::vector<Crossing> crossings = find_crossings(input);
+    if (crossings.empty()) return;
+    report_.warnings.push_back(
+        fmt::format("the surface of the input passes through itself: {} pairs of triangles, the "
+                    "first near {}",
+                    crossings.size(), to_text(crossings.front().where)));
   }
 
   void set_targets() {
-    auto place = [](const Vec3& p) {
-      return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
-    };
     const QualityStatistics& q = report_.after.quality;
     const LengthStatistics& l = report_.after.lengths;
     auto add = [&](const char* name, double wanted, double measured, bool met, const Vec3& at) {
-      report_.targets.push_back({name, wanted, measured, met, met ? "" : place(at)});
+      report_.targets.push_back({name, wanted, measured, met, met ? "" : to_text(at)});
     };
     add("worst quality", options_.min_quality, q.worst, q.worst >= options_.min_quality,
         q.worst_place);
@@ -376,6 +393,7 @@ class Run {
         crossings_.empty() ? Vec3{} : crossings_[0].where);
   }
 
+  const TetMesh& input_;
   SizeField field_;
   /// No repair asks for less; of no concern before one.
   double spot_floor_ = std::numeric_limits<double>::infinity();

@@ -129,6 +129,30 @@ TEST(Fidelity, BulgeStaysWithinItsBound) {
   }
 }
 
+TEST(Fidelity, ACrossingOfTheInputIsTold) {
+  // Two cubes that overlap without a vertex in common.
+  MeshData data = kuhn_cube(3);
+  const std::int32_t own = std::int32_t(data.vertices.size());
+  for (std::int32_t v = 0; v < own; ++v)
+    data.vertices.push_back(data.vertices[std::size_t(v)] + Vec3{0.81, 0.13, 0.27});
+  for (std::size_t t = 0, n = data.tets.size(); t < n; ++t) {
+    std::array<std::int32_t, 4> tet = data.tets[t];
+    for (std::int32_t& v : tet) v += own;
+    data.tets.push_back(tet);
+  }
+  data.vertex_refs.clear(), data.tet_refs.clear();
+  TetMesh mesh = built(data);
+  Options options;
+  options.hausd = 0.05;
+  const Report report = remesh(mesh, {}, options);
+  EXPECT_FALSE(report.targets_met());
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(report.warnings[0].find("passes through itself"), std::string::npos);
+
+  TetMesh sound = built(kuhn_cube(3));
+  EXPECT_TRUE(remesh(sound, {}, options).warnings.empty());
+}
+
 TEST(Fidelity, NearSheetsNeverCross) {
   // A ball with a slit: two sheets that are nearer to each other than the tolerance.
   for (const double gap : {0.02, 0.005, 0.001}) {
