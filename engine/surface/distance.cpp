@@ -61,13 +61,33 @@ int intervals(const Corners& k, double step) {
   return int(std::clamp<double>(wanted, kMinIntervals, kMaxIntervals));
 }
 
+/// Between the samples of a triangle that are so many hausd away there may be one beyond 1.
+constexpr double kNearLimit = 0.75;
+
+/// Adds samples around the worst one of a triangle, nearer and nearer, and around what is worse
+/// then. \param worst_at its barycentric coordinates, which add(u, v) keeps
+template <class Add>
+void climb(const std::array<double, 2>& worst_at, double step, Add&& add) {
+  constexpr int kHalvings = 3;
+  constexpr int kDirections[][2] = {{1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {-1, 0}};
+  for (int k = 0; k < kHalvings; ++k, step /= 2) {
+    const auto [u, v] = worst_at;
+    for (const auto& [i, j] : kDirections) {
+      const double x = u + i * step, y = v + j * step;
+      if (x >= 0 && y >= 0 && x + y <= 1) add(x, y);
+    }
+  }
+}
+
 /// Samples those triangles that have no samples yet: distance_from() makes a function of the sample
 /// x for each triangle in turn, so that a search may begin where it ended for the sample before.
 /// Never where another triangle's ended: which one that is depends on the threads. Its second
 /// argument is a distance so small that it need not be exact: it would not raise any maximum.
+/// \param may_stop where the first samples are all near: not where the triangle is far larger than
+/// those of the other surface
 template <class At, class DistanceFrom>
 void sample_all(std::span<const Corners> triangles, const DistanceSampling& sampling,
-                double least_hausd, At&& at, DistanceFrom&& distance_from,
+                double least_hausd, bool may_stop, At&& at, DistanceFrom&& distance_from,
                 std::vector<Sampled>& samples) {
   parallel_for(
       triangles.size(),
@@ -76,17 +96,19 @@ void sample_all(std::span<const Corners> triangles, const DistanceSampling& samp
         Sampled& s = samples[t];
         if (s.count > 0) return;
         auto distance = distance_from(t);
-        auto sample = [&](int n) {
-          for_each_sample(n, [&](double u, double v) {
-            const Vec3 x = at(t, u, v);
-            const double small = sampling.enough > 0 ? std::min(s.max, s.worst * least_hausd) : -1;
-            s.add(x, distance(x, small));
-          });
+        std::array<double, 2> worst_at{};
+        auto add = [&](double u, double v) {
+          const double before = s.worst;
+          const double small = sampling.enough > 0 ? std::min(s.max, s.worst * least_hausd) : -1;
+          const Vec3 x = at(t, u, v);
+          s.add(x, distance(x, small));
+          if (s.worst > before) worst_at = {u, v};
         };
         s = {};
         const int n = intervals(k, sampling.step);
-        if (n > kMinIntervals && sampling.enough > 0) sample(kMinIntervals);
-        if (s.count == 0 || s.worst > sampling.enough) sample(n);
+        if (n > kMinIntervals && sampling.enough > 0) for_each_sample(kMinIntervals, add);
+        if (s.count == 0 || !may_stop || s.worst > sampling.enough) for_each_sample(n, add);
+        if (s.worst > kNearLimit) climb(worst_at, 0.5 / n, add);
         s.area = norm(cross(k[1] - k[0], k[2] - k[0])) / 2;
       },
       kGrain);
@@ -154,7 +176,7 @@ double least_hausd_of(const SurfaceModel& model) {
 void sample_output(const OutputSurface& out, const SurfaceModel& model, const PatchTree& tree,
                    const DistanceSampling& sampling, std::vector<Sampled>& samples) {
   sample_all(
-      out.corners, sampling, least_hausd_of(model),
+      out.corners, sampling, least_hausd_of(model), true,
       [&](std::size_t t, double u, double v) { return on_flat(out.corners[t], u, v); },
       [&](std::size_t t) {
         return [&, t, last = NearestOnModel{}](const Vec3& x, double small) mutable {
@@ -171,7 +193,7 @@ void sample_model(const OutputSurface& out, const SurfaceModel& model,
                   std::vector<Sampled>& samples) {
   const FacetTree tree(out.corners);
   sample_all(
-      facets, sampling, least_hausd_of(model),
+      facets, sampling, least_hausd_of(model), false,
       [&](std::size_t f, double u, double v) {
         return model.patch_of_facet(std::int32_t(f)).at(u, v);
       },

@@ -20,7 +20,7 @@ constexpr double kStep = 0.02;
 
 /// Largest distance of patch points from the facet points of the same coordinates.
 double largest_offset(const SurfaceModel& model) {
-  constexpr int n = 12;
+  constexpr int n = 96;
   double worst = 0;
   for (std::int32_t f = 0; f < std::int32_t(model.facets()); ++f) {
     const auto [a, b, c] = model.facet_corners(f);
@@ -44,6 +44,24 @@ TEST(SurfaceDistance, OfTheInputIsItsBulge) {
   EXPECT_NEAR(d.out_to_model.max, bulge, 0.02 * bulge);
   EXPECT_LT(d.out_to_model.mean, d.out_to_model.max);
   EXPECT_GT(d.out_to_model.mean, 0);
+}
+
+TEST(SurfaceDistance, IsFoundBetweenSamples) {
+  // The pole of a bump is anywhere on a facet that is much larger.
+  constexpr std::uint64_t kSeed = 5;
+  constexpr double kHeight = 0.01;
+  test::Random random(kSeed);
+  for (int k = 0; k < 20; ++k) {
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", bump " << k);
+    const auto cube = modelled_cube(1);
+    TetMesh finer = build(test::kuhn_cube(9)).mesh;
+    const Vec3 pole{random.between(0.2, 0.8), random.between(0.2, 0.8), 0};
+    for (Vec3& p : finer.points)
+      if (p.z == 0) p.z = kHeight / (1 + 30 * distance2(p, pole));
+    const SurfaceDistance fine = measure_surface_distance(finer, cube.model, kStep / 2);
+    const SurfaceDistance coarse = measure_surface_distance(finer, cube.model, 12 * kStep);
+    EXPECT_GT(coarse.model_to_out.max, 0.96 * fine.model_to_out.max);
+  }
 }
 
 TEST(SurfaceDistance, OfAFlatShapeIsZero) {
