@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "cavea/geometry/dihedral.h"
 
@@ -11,6 +13,12 @@ namespace {
 
 /// A tet with a smaller dihedral angle, in degrees, has at most a quality of 0.3.
 constexpr double kSmallAngle = 13;
+/// A tet on a triangle with a smaller angle has at most a quality of 0.35, and less where its
+/// neighbours must share that angle.
+constexpr double kSmallFaceAngle = 12;
+/// An edge between feature curves that is shorter than this, in wanted lengths, cannot be
+/// collapsed, and its tets are needles.
+constexpr double kNarrow = 0.3;
 /// Cosine between the way through a wall and the normals of its sides, 45 degrees.
 constexpr double kThrough = 0.7;
 
@@ -47,6 +55,45 @@ double sharpest_wedge(OperatorContext& c, TetId t) {
     if (c.shell.on_surface()) sharpest = std::min(sharpest, wedge_around(c.mesh, c.shell, t));
   }
   return sharpest;
+}
+
+/// The smallest angle, in degrees, between feature curves that meet in a vertex of tet t and bound
+/// a surface triangle with another one of its vertices.
+double sharpest_tip(OperatorContext& c, TetId t) {
+  double sharpest = 180;
+  for (const VertexId v : c.mesh.tets[t]) {
+    gather_ball(c.mesh, v, c.marker, c.ball);
+    for_each_triangle(c.mesh, c.ball, [&](TriangleId id) {
+      const Triangle& s = c.mesh.triangles[id];
+      const std::size_t i = s.v[0] == v ? 0 : s.v[1] == v ? 1 : 2, j = (i + 1) % 3, k = (i + 2) % 3;
+      if (!(s.edge_tag[j] & s.edge_tag[k] & tag::kFeature)) return;
+      if (c.mesh.local_index(t, s.v[j]) == 4 && c.mesh.local_index(t, s.v[k]) == 4) return;
+      const Vec3 a = normalized(c.point(s.v[j]) - c.point(v)),
+                 b = normalized(c.point(s.v[k]) - c.point(v));
+      sharpest =
+          std::min(sharpest, std::atan2(norm(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi);
+    });
+  }
+  return sharpest;
+}
+
+/// The shortest edge of tet t that bridges feature curves, in wanted lengths; infinite if none
+/// does.
+struct Bridge {
+  double length = 0, in_sizes = std::numeric_limits<double>::infinity();
+};
+
+Bridge shortest_bridge(OperatorContext& c, TetId t) {
+  constexpr Tag kOnCurve =
+      tag::kCorner | tag::kRidge | tag::kReferenceEdge | tag::kNonManifold | tag::kRequired;
+  Bridge shortest;
+  for (const auto& e : kEdgeVertices) {
+    const VertexId a = c.mesh.tets[t][e[0]], b = c.mesh.tets[t][e[1]];
+    if (!(c.tags(a) & kOnCurve) || !(c.tags(b) & kOnCurve)) continue;
+    const double in_sizes = c.length(a, b);
+    if (in_sizes < shortest.in_sizes) shortest = {distance(c.point(a), c.point(b)), in_sizes};
+  }
+  return shortest;
 }
 
 /// The direction in which a tet is thinnest, and how thin it is.
@@ -98,11 +145,14 @@ bool is_between_walls(OperatorContext& c, TetId t, const Width& width) {
   return true;
 }
 
-}  // namespace
-
-std::string obstacle_of(OperatorContext& c, TetId t) {
+std::string obstacle_at(OperatorContext& c, TetId t) {
   if (const double angle = sharpest_wedge(c, t); angle < kSmallAngle)
     return fmt::format("the surface meets itself at {:.3g} degrees", angle);
+  if (const double angle = sharpest_tip(c, t); angle < kSmallFaceAngle)
+    return fmt::format("feature curves meet at {:.3g} degrees", angle);
+  if (const Bridge b = shortest_bridge(c, t); b.in_sizes < kNarrow)
+    return fmt::format("feature curves or corners are {:.3g} apart, {:.2g} of the wanted length",
+                       b.length, b.in_sizes);
   const Width width = width_of(c.mesh.corners(t));
   double size = 0;
   for (const VertexId v : c.mesh.tets[t]) size += c.mesh.sizes[v] / 4;
@@ -110,6 +160,15 @@ std::string obstacle_of(OperatorContext& c, TetId t) {
     return fmt::format("the wall is {:.3g} thick, {:.2g} of the wanted length", width.thickness,
                        width.thickness / size);
   return "";
+}
+
+}  // namespace
+
+std::string obstacle_of(OperatorContext& c, TetId t) {
+  std::string what = obstacle_at(c, t);
+  for (int f = 0; f < 4 && what.empty(); ++f)
+    if (const FaceLink link = c.mesh.links[t][f]; link.is_tet()) what = obstacle_at(c, link.tet());
+  return what;
 }
 
 }  // namespace cavea

@@ -82,11 +82,7 @@ class Run {
     mend_poor();
     finish();
     timed("measurement", [&] { distance_ = measure_distance(); });
-    for (int k = 0; k < kRepairs && may_repair() && distance_.worse().worst > kMeasuredShare; ++k) {
-      timed("repair", [&] { repair(); });
-      finish();
-      timed("measurement", [&] { distance_ = measure_distance(); });
-    }
+    repair_where_far();
     timed("statistics", [&] { measure(); });
     if (options_.directions) report_.directions = surface_directions(mesh_, *surface_);
     report_.peak_resident_bytes = peak_resident_bytes();
@@ -155,9 +151,19 @@ class Run {
     // height w meet at a, h = sqrt(4.5 hausd w / a). Beyond a w = 3 hausd the sag is too large:
     // then edges must follow the fold, and w is no less than about h, so that they can.
     constexpr double kFold = 3;
+    // A smooth surface there would bulge by w a / 8. What is above the bound remains as a crease,
+    // of angle a' with w a' = w a - 8 bulge, to which sizes of about 3.5 hausd / a' belong. Beyond
+    // 6 of them in w it is better to follow the crease, too; but where it is slight the shape is
+    // meant to be smooth, and only the tolerance too small for its facets.
+    constexpr double kBulge = 8, kCrease = 6 * 3.5, kSlight = 20;
+    constexpr double kSliver = 0.5;  // of hausd: less than what the surface may be off anyway
     FeatureOptions o;
+    o.sliver = kSliver * r_.hausd;
     o.angle = options_.angle, o.detect_ridges = options_.detect_ridges;
-    if (options_.faceted) o.crease = kFold * r_.hausd;
+    if (options_.faceted)
+      o.crease = kFold * r_.hausd;
+    else if (o.detect_ridges)
+      o.crease = kBulge * r_.max_bulge + kCrease * r_.hausd, o.least_crease_angle = kSlight;
     return o;
   }
 
@@ -301,6 +307,27 @@ class Run {
   void finish() {
     if (options_.finish && !r_.freeze.move && !r_.freeze.surface)
       timed("finish", [&] { options_.finish(mesh_); });
+  }
+
+  /// Repairs may leave poor tets as phases do, and mending these may move the surface.
+  void repair_where_far() {
+    auto is_far = [&] { return distance_.worse().worst > kMeasuredShare; };
+    int repairs = 0;
+    auto measure_anew = [&] {
+      finish();
+      timed("measurement", [&] { distance_ = measure_distance(); });
+    };
+    auto repair_all = [&] {
+      for (; repairs < kRepairs && may_repair() && is_far(); ++repairs) {
+        timed("repair", [&] { repair(); });
+        measure_anew();
+      }
+    };
+    repair_all();
+    if (repairs == 0 || count_poor(mesh_) == 0) return;
+    mend_poor();
+    measure_anew();
+    repair_all();
   }
 
   /// Makes the surface finer where it is too far from the model: what the curvature did not tell.

@@ -52,18 +52,71 @@ Vec3 triangle_normal(const TetMesh& m, const Triangle& t) {
       cross(m.points[t.v[1]] - m.points[t.v[0]], m.points[t.v[2]] - m.points[t.v[0]]));
 }
 
+/// The normals that folds are told by: those of the triangles, but for slivers.
+class FoldNormals {
+ public:
+  FoldNormals(const TetMesh& m, const std::vector<EdgeSide>& sides, double sliver)
+      : normals_(m.triangles.size()) {
+    for (std::size_t t = 0; t < normals_.size(); ++t)
+      if (m.triangles[t].alive()) normals_[t] = triangle_normal(m, m.triangles[t]);
+    if (sliver > 0) look_behind(longest_sides_of_slivers(m, sliver), sides);
+  }
+  const Vec3& operator[](TriangleId t) const { return normals_[std::size_t(t)]; }
+
+ private:
+  /// For each triangle the corner opposite its longest edge if its height there is less than
+  /// `sliver`, else -1.
+  static std::vector<std::int8_t> longest_sides_of_slivers(const TetMesh& m, double sliver) {
+    std::vector<std::int8_t> sides(m.triangles.size(), -1);
+    for (std::size_t t = 0; t < sides.size(); ++t) {
+      const Triangle& s = m.triangles[t];
+      if (!s.alive()) continue;
+      const Vec3 x[3] = {m.points[s.v[0]], m.points[s.v[1]], m.points[s.v[2]]};
+      double lengths[3];
+      for (int k = 0; k < 3; ++k) lengths[k] = distance(x[(k + 1) % 3], x[(k + 2) % 3]);
+      const double* longest = std::max_element(lengths, lengths + 3);
+      if (norm(cross(x[1] - x[0], x[2] - x[0])) < sliver * *longest)
+        sides[t] = std::int8_t(longest - lengths);
+    }
+    return sides;
+  }
+
+  /// Gives each sliver the normal of the first triangle behind it that is none.
+  void look_behind(const std::vector<std::int8_t>& longest, const std::vector<EdgeSide>& sides) {
+    constexpr int kMostSlivers = 8;  // one behind the other
+    std::vector<TriangleId> behind(longest.size(), kNone);
+    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+      if (end - begin != 2) return;
+      for (int i = 0; i < 2; ++i)
+        if (begin[i].k == longest[std::size_t(begin[i].triangle)])
+          behind[std::size_t(begin[i].triangle)] = begin[1 - i].triangle;
+    });
+    for (std::size_t t = 0; t < longest.size(); ++t) {
+      TriangleId at = TriangleId(t);
+      for (int step = 0; step < kMostSlivers && at != kNone && longest[std::size_t(at)] >= 0;
+           ++step)
+        at = behind[std::size_t(at)];
+      if (at != kNone && longest[std::size_t(at)] < 0) normals_[t] = normals_[std::size_t(at)];
+    }
+  }
+
+  std::vector<Vec3> normals_;
+};
+
 /// The options as cosines.
 struct Sharpness {
   explicit Sharpness(const FeatureOptions& o)
       : cosine(std::cos(o.angle * std::numbers::pi / 180)),
         detect(o.detect_ridges),
-        crease(o.crease) {}
+        crease(o.crease),
+        least_angle(o.least_crease_angle * std::numbers::pi / 180) {}
   bool folds(double cos_angle, double length) const {
-    return std::acos(std::clamp(cos_angle, -1.0, 1.0)) * length > crease;
+    const double angle = std::acos(std::clamp(cos_angle, -1.0, 1.0));
+    return angle > least_angle && angle * length > crease;
   }
   double cosine;
   bool detect;
-  double crease;
+  double crease, least_angle;
 };
 
 /// Mean height of the two triangles at an edge over it.
@@ -77,7 +130,7 @@ double mean_height(const TetMesh& m, const EdgeSide* begin) {
 }
 
 Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end,
-              const Sharpness& sharpness) {
+              const Sharpness& sharpness, const FoldNormals& normals) {
   Tag tags = 0;
   int outside = 0;
   for (const EdgeSide* s = begin; s != end; ++s) {
@@ -89,7 +142,7 @@ Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end,
   const Triangle& t0 = m.triangles[begin[0].triangle];
   const Triangle& t1 = m.triangles[begin[1].triangle];
   if (t0.ref != t1.ref) tags |= tag::kReferenceEdge;
-  const Vec3 n0 = triangle_normal(m, t0), n1 = triangle_normal(m, t1);
+  const Vec3 n0 = normals[begin[0].triangle], n1 = normals[begin[1].triangle];
   // A triangle of zero area has no normal and says nothing about sharpness.
   const bool both = norm2(n0) > 0 && norm2(n1) > 0;
   if (!both) return tags;
@@ -101,8 +154,9 @@ Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end,
 
 void tag_edges(TetMesh& m, const std::vector<EdgeSide>& sides, const FeatureOptions& options) {
   const Sharpness sharpness(options);
+  const FoldNormals normals(m, sides, options.sliver);
   for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
-    Tag tags = edge_tags(m, begin, end, sharpness);
+    Tag tags = edge_tags(m, begin, end, sharpness, normals);
     if ((tags & tag::kRidge) && options.may_be_ridge && !options.may_be_ridge(begin->a, begin->b))
       tags &= Tag(~tag::kRidge);
     std::int32_t ref = 0;

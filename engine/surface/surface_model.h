@@ -123,6 +123,11 @@ class SurfaceModel {
   double bulge_between(std::int32_t v, std::int32_t w) const {
     return std::min(vertex_bulge_[v], vertex_bulge_[w]);
   }
+  Vec3 normal_on_edge(std::int32_t facet, int k, std::int32_t a, double t) const;
+  bool is_flattened(std::int32_t facet) const;
+  double crease_size(std::int32_t facet, int k) const;
+  void set_crease_sizes();
+  double size_near_creases(std::int32_t facet, const Vec3& place, double size) const;
   double spot_size(const Vec3& place, double size) const;
   double size_on_curve(std::int32_t edge, const Vec3& place, double size) const;
   double narrow_size(std::int32_t edge, const Vec3& place, double size) const;
@@ -175,7 +180,9 @@ class SurfaceModel {
   std::optional<BoxTree> curve_tree_;
   std::vector<Spot> spots_;
   std::optional<BoxTree> spot_tree_;  ///< if there are any
-  std::vector<double> sizes_;
+  std::vector<double> sizes_;         ///< at the vertices
+  std::vector<std::array<float, 3>>
+      crease_sizes_;  ///< along the edge opposite corner k; infinite without a crease
   std::vector<std::int32_t> snapshot_vertex_;  ///< of the mesh's vertices, during construction only
 };
 

@@ -21,6 +21,14 @@ constexpr double kWidth = 1.0;
 /// Where they run together in a sharper wedge, finer tets would be no better.
 constexpr double kParallel = 0.966;
 
+/// Patches that the bound on the bulge has flattened meet in creases. An edge of length h across
+/// one of angle a sags by h a / 4 in the middle: wanted is 0.75 of the tolerance.
+constexpr double kCreaseSag = 3.5;
+/// Flatter ones, in radians, are left to the curvature.
+constexpr double kSlightCrease = 0.3;
+/// How fast sizes rise from a crease: as with the default gradation, log 1.3.
+constexpr double kRise = 0.26;
+
 }  // namespace
 
 /// Largest principal curvature of the smooth fan at a corner: the second fundamental form that fits
@@ -120,6 +128,66 @@ void SurfaceModel::set_sizes() {
     }
 }
 
+/// The normal of a facet's patch at the place t of the edge opposite corner k, from vertex a on.
+Vec3 SurfaceModel::normal_on_edge(std::int32_t f, int k, std::int32_t a, double t) const {
+  std::array<double, 3> weights{};
+  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  const bool from_i = facets_[f][i] == a;
+  weights[i] = from_i ? 1 - t : t;
+  weights[j] = from_i ? t : 1 - t;
+  return normalized(patches_[f].normal(weights[1], weights[2]));
+}
+
+/// Whether the bound on the bulge has pulled one of the patch's edges towards the facet.
+bool SurfaceModel::is_flattened(std::int32_t f) const {
+  constexpr double kAtBound = 0.999;  // but for rounding
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const Vec3 a = points_[facets_[f][i]], d = points_[facets_[f][j]] - a;
+    const double bound = kAtBound * bulge_between(facets_[f][i], facets_[f][j]);
+    if (distance(patches_[f].edge[k][0], a + d / 3) > bound ||
+        distance(patches_[f].edge[k][1], a + 2.0 / 3 * d) > bound)
+      return true;
+  }
+  return false;
+}
+
+/// The size wanted along the edge opposite corner k, which is no feature, for the sake of the
+/// crease between the two patches.
+double SurfaceModel::crease_size(std::int32_t f, int k) const {
+  const std::int32_t g = smooth_neighbors_[f][k];
+  if (g == kNone || facet_curve_[f][k] != kNone || !(is_flattened(f) || is_flattened(g)))
+    return kEndless;
+  const auto& of_g = smooth_neighbors_[g];
+  const int l = of_g[0] == f ? 0 : of_g[1] == f ? 1 : 2;
+  const std::int32_t a = facets_[f][(k + 1) % 3];
+  double cosine = 1;  // facets of interfaces need not be oriented alike
+  for (const double t : {0.25, 0.5, 0.75})
+    cosine =
+        std::min(cosine, std::abs(dot(normal_on_edge(f, k, a, t), normal_on_edge(g, l, a, t))));
+  const double angle = std::acos(cosine);
+  if (angle < kSlightCrease) return kEndless;
+  return kCreaseSag * std::min(facet_tolerance_[f], facet_tolerance_[g]) / angle;
+}
+
+void SurfaceModel::set_crease_sizes() {
+  crease_sizes_.resize(facets_.size());
+  parallel_for(facets_.size(), [&](std::size_t f) {
+    for (int k = 0; k < 3; ++k) crease_sizes_[f][k] = float(crease_size(std::int32_t(f), k));
+  });
+}
+
+/// The size at a place of a facet, or less near a crease.
+double SurfaceModel::size_near_creases(std::int32_t f, const Vec3& place, double size) const {
+  for (int k = 0; k < 3; ++k) {
+    const double h = crease_sizes_[f][k];
+    if (h >= size) continue;
+    const Vec3 a = points_[facets_[f][(k + 1) % 3]], b = points_[facets_[f][(k + 2) % 3]];
+    size = std::min(size, h + kRise * std::sqrt(closest_on_segment(place, a, b).distance2));
+  }
+  return size;
+}
+
 /// Length of each feature curve from corner to corner, at all of its edges; closed curves have
 /// none.
 void SurfaceModel::set_chain_lengths() {
@@ -155,7 +223,8 @@ double SurfaceModel::size(const Anchor& anchor) const {
   if (const std::int32_t corner = corner_vertex(anchor); corner != kNone)
     for_each_curve_at(corner, [&](std::int32_t e) { h = size_on_curve(e, points_[corner], h); });
   const Vec3 place = patches_[anchor.facet].at(anchor.u, anchor.v);
-  return spot_size(place, thin_size(anchor.facet, place, h));
+  return spot_size(place,
+                   thin_size(anchor.facet, place, size_near_creases(anchor.facet, place, h)));
 }
 
 double SurfaceModel::size_on_curve(std::int32_t e, const Vec3& place, double size) const {

@@ -19,6 +19,7 @@ SurfaceModel::SurfaceModel(TetMesh& mesh, const Settings& settings) : settings_(
   curve_tree_.emplace(curve_boxes());
   set_chain_lengths();
   set_sizes();
+  set_crease_sizes();
   set_anchors(mesh);
   snapshot_vertex_ = {};
 }

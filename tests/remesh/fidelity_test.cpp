@@ -153,6 +153,38 @@ TEST(Fidelity, ACrossingOfTheInputIsTold) {
   EXPECT_TRUE(remesh(sound, {}, options).warnings.empty());
 }
 
+/// A prism on a regular polygon, cut into tets around its axis.
+MeshData prism(int sides) {
+  MeshData data;
+  for (const double z : {0.0, 2.0}) {
+    data.vertices.push_back({0, 0, z});
+    for (int k = 0; k < sides; ++k) {
+      const double a = 2 * std::numbers::pi * k / sides;
+      data.vertices.push_back({std::cos(a), std::sin(a), z});
+    }
+  }
+  for (std::int32_t k = 0; k < sides; ++k) {
+    const std::int32_t a = 1 + k, b = 1 + (k + 1) % sides, up = sides + 1;
+    data.tets.push_back({0, a, b, up});
+    data.tets.push_back({a, b, up, a + up});
+    data.tets.push_back({b, up, a + up, b + up});
+  }
+  data.vertex_refs.assign(data.vertices.size(), 0), data.tet_refs.assign(data.tets.size(), 1);
+  return data;
+}
+
+TEST(Fidelity, CoarseRoundShapesAreFollowed) {
+  // Their smooth surfaces would bulge by many tolerances, and meet in creases if they may not.
+  for (const MeshData& data : {prism(8), prism(12), prism(14), prism(16), ball(3)}) {
+    TetMesh mesh = built(data);
+    const Report report = remesh(mesh, {}, {});
+    expect_sound(mesh);
+    EXPECT_LE(report.surface_distance, report.hausd) << data.vertices.size() << " vertices";
+    EXPECT_LE(report.bulge, 3 * report.hausd);
+    EXPECT_LT(report.after.counts.tets, 60000);
+  }
+}
+
 TEST(Fidelity, NearSheetsNeverCross) {
   // A ball with a slit: two sheets that are nearer to each other than the tolerance.
   for (const double gap : {0.02, 0.005, 0.001}) {

@@ -88,6 +88,21 @@ TEST(Stubborn, TetsAcrossAThinWallAreNamedWithItsThickness) {
   EXPECT_GT(thin, 0);
 }
 
+TEST(Stubborn, TetsAtTheTipBetweenTwoCurvesAreNamedWithItsAngle) {
+  // A pyramid upside down; its flat top has a triangle of its own reference with a sharp tip.
+  const double y = std::tan(8 * std::numbers::pi / 180);
+  MeshData data;
+  data.vertices = {{0, 0, 0}, {1, 0, 0}, {1, y, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, -1}};
+  data.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
+  data.triangle_refs = {5, 6, 6};
+  for (const auto& [a, b, c] : data.triangles) data.tets.push_back({a, b, c, 5});
+  data.vertex_refs.assign(6, 0), data.tet_refs.assign(3, 1);
+  const Report report = report_of(data, uniform(0.05));
+  ASSERT_FALSE(report.stubborn.empty());
+  EXPECT_TRUE(says(report.stubborn[0], "feature curves meet at 8 degrees"))
+      << report.stubborn[0].reason;
+}
+
 TEST(Stubborn, AreNoneInAGoodMesh) {
   const Report report = report_of(kuhn_cube(4), uniform(0.1));
   EXPECT_GE(report.after.quality.worst, 0.3);

@@ -115,6 +115,23 @@ TEST(ClassifyFeatures, TheAngleDecidesWhatIsSharp) {
   EXPECT_EQ(classify_features(sharp, {89, true}), 6);
 }
 
+TEST(ClassifyFeatures, SliversSayNothingOfFolds) {
+  // A pyramid upside down, over the diagonal of whose flat top a sliver stands upright.
+  MeshData data;
+  data.vertices = {{0, 0, 0},     {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.4999, 0.5001, 1e-3},
+                   {0.5, 0.5, -1}};
+  data.tets = {{0, 1, 2, 5}, {0, 2, 4, 5}, {0, 4, 3, 5}, {4, 2, 3, 5}};
+  data.vertex_refs.assign(6, 0), data.tet_refs.assign(4, 1);
+  TetMesh mesh = build(data).mesh;
+  FeatureOptions options;
+  classify_features(mesh, options);
+  EXPECT_EQ(edges_with(mesh, tag::kRidge), 8 + 3);
+  TetMesh again = build(data).mesh;
+  options.sliver = 0.01;
+  classify_features(again, options);
+  EXPECT_EQ(edges_with(again, tag::kRidge), 8);
+}
+
 TEST(ClassifyFeatures, EndsOfADanglingRidgeAreCorners) {
   MeshData data = kuhn_cube(4);
   list_path(data, {{0.25, 0.5}, {0.5, 0.5}, {0.75, 0.5}}, Kind::kRidge);
