@@ -52,21 +52,24 @@ Vec3 triangle_normal(const TetMesh& m, const Triangle& t) {
       cross(m.points[t.v[1]] - m.points[t.v[0]], m.points[t.v[2]] - m.points[t.v[0]]));
 }
 
-/// The normals that folds are told by: those of the triangles, but for slivers.
+/// The normals that folds are told by: those of the triangles, but for slivers between two
+/// triangles that make no fold without them.
 class FoldNormals {
  public:
-  FoldNormals(const TetMesh& m, const std::vector<EdgeSide>& sides, double sliver)
+  FoldNormals(const TetMesh& m, const std::vector<EdgeSide>& sides, const FeatureOptions& o)
       : normals_(m.triangles.size()) {
     for (std::size_t t = 0; t < normals_.size(); ++t)
       if (m.triangles[t].alive()) normals_[t] = triangle_normal(m, m.triangles[t]);
-    if (sliver > 0) look_behind(longest_sides_of_slivers(m, sliver), sides);
+    if (o.sliver > 0)
+      look_across(short_sides_of_slivers(m, o.sliver), sides,
+                  std::cos(o.angle * std::numbers::pi / 180));
   }
   const Vec3& operator[](TriangleId t) const { return normals_[std::size_t(t)]; }
 
  private:
-  /// For each triangle the corner opposite its longest edge if its height there is less than
+  /// For each triangle the corner opposite its shortest edge if its least height is below
   /// `sliver`, else -1.
-  static std::vector<std::int8_t> longest_sides_of_slivers(const TetMesh& m, double sliver) {
+  static std::vector<std::int8_t> short_sides_of_slivers(const TetMesh& m, double sliver) {
     std::vector<std::int8_t> sides(m.triangles.size(), -1);
     for (std::size_t t = 0; t < sides.size(); ++t) {
       const Triangle& s = m.triangles[t];
@@ -74,29 +77,29 @@ class FoldNormals {
       const Vec3 x[3] = {m.points[s.v[0]], m.points[s.v[1]], m.points[s.v[2]]};
       double lengths[3];
       for (int k = 0; k < 3; ++k) lengths[k] = distance(x[(k + 1) % 3], x[(k + 2) % 3]);
-      const double* longest = std::max_element(lengths, lengths + 3);
+      const auto [shortest, longest] = std::minmax_element(lengths, lengths + 3);
       if (norm(cross(x[1] - x[0], x[2] - x[0])) < sliver * *longest)
-        sides[t] = std::int8_t(longest - lengths);
+        sides[t] = std::int8_t(shortest - lengths);
     }
     return sides;
   }
 
-  /// Gives each sliver the normal of the first triangle behind it that is none.
-  void look_behind(const std::vector<std::int8_t>& longest, const std::vector<EdgeSide>& sides) {
-    constexpr int kMostSlivers = 8;  // one behind the other
-    std::vector<TriangleId> behind(longest.size(), kNone);
+  void look_across(const std::vector<std::int8_t>& shortest, const std::vector<EdgeSide>& sides,
+                   double cosine) {
+    std::vector<std::array<TriangleId, 2>> across(shortest.size(), {kNone, kNone});
     for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
       if (end - begin != 2) return;
-      for (int i = 0; i < 2; ++i)
-        if (begin[i].k == longest[std::size_t(begin[i].triangle)])
-          behind[std::size_t(begin[i].triangle)] = begin[1 - i].triangle;
+      for (int i = 0; i < 2; ++i) {
+        const auto t = std::size_t(begin[i].triangle);
+        if (shortest[t] < 0 || begin[i].k == shortest[t]) continue;
+        across[t][across[t][0] == kNone ? 0 : 1] = begin[1 - i].triangle;
+      }
     });
-    for (std::size_t t = 0; t < longest.size(); ++t) {
-      TriangleId at = TriangleId(t);
-      for (int step = 0; step < kMostSlivers && at != kNone && longest[std::size_t(at)] >= 0;
-           ++step)
-        at = behind[std::size_t(at)];
-      if (at != kNone && longest[std::size_t(at)] < 0) normals_[t] = normals_[std::size_t(at)];
+    const std::vector<Vec3> own = normals_;
+    for (std::size_t t = 0; t < across.size(); ++t) {
+      if (across[t][1] == kNone) continue;
+      const Vec3 &a = own[std::size_t(across[t][0])], &b = own[std::size_t(across[t][1])];
+      if (dot(a, b) >= cosine) normals_[t] = normalized(a + b);
     }
   }
 
@@ -154,7 +157,7 @@ Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end,
 
 void tag_edges(TetMesh& m, const std::vector<EdgeSide>& sides, const FeatureOptions& options) {
   const Sharpness sharpness(options);
-  const FoldNormals normals(m, sides, options.sliver);
+  const FoldNormals normals(m, sides, options);
   for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
     Tag tags = edge_tags(m, begin, end, sharpness, normals);
     if ((tags & tag::kRidge) && options.may_be_ridge && !options.may_be_ridge(begin->a, begin->b))

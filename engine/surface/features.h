@@ -14,8 +14,8 @@ struct FeatureOptions {
   /// holds of its turn and its edges. For surfaces whose flat triangles are the truth.
   double crease = std::numeric_limits<double>::infinity();
   double least_crease_angle = 0;  ///< degrees; flatter edges are no such ridges
-  /// Folds are told from what is behind triangles of less height than this, across their longest
-  /// edges: their own normals are those of noise.
+  /// A triangle of less height than this makes no fold between two, at its longer edges, that make
+  /// none without it: its own normal is that of noise.
   double sliver = 0;
   /// If set, only edges that it takes are ridges, whether found or carried by the mesh.
   std::function<bool(VertexId, VertexId)> may_be_ridge = {};
