@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cavea/base/error.h"
 #include "cavea/base/parallel.h"
 #include "cavea/implicit/islands.h"
 #include "cavea/implicit/keep.h"
 #include "cavea/implicit/normals.h"
+#include "cavea/implicit/recovered_gradients.h"
 #include "cavea/implicit/signs.h"
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/faces.h"
@@ -59,6 +61,7 @@ class Cut {
         options_(options),
         report_(report),
         signs_(cut_signs(mesh, values_, splits())) {
+    if (!level_set) gradients_.emplace(mesh, values_);
     report_.vertices_on_interface = std::ranges::count(signs_, 0);
     silence_unsplit();
   }
@@ -72,6 +75,7 @@ class Cut {
     cut_ = subdivide(
         mesh_, [&](const MeshEdge& e) { return crossed(e.a, e.b); },
         [&](const MeshEdge& e) { return vertex_on(e); }, 0);
+    gradients_.reset();
     find_sides();
     remove_islands();
     return finish();
@@ -99,7 +103,7 @@ class Cut {
     NewVertex made = straight_midpoint(mesh_, e);
     const Vec3 a = mesh_.points[e.a], b = mesh_.points[e.b];
     const double share = level_set_ ? zero_on_edge(*level_set_, a, b, values_[e.a], values_[e.b])
-                                    : values_[e.a] / (values_[e.a] - values_[e.b]);
+                                    : gradients_->zero_on_edge(e.a, e.b);
     made.point = a + (b - a) * std::clamp(share, kLeastCutShare, 1 - kLeastCutShare);
     return made;
   }
@@ -210,6 +214,8 @@ class Cut {
   const TetMesh& mesh_;
   std::vector<double> values_;
   const LevelSet* level_set_;
+  std::optional<RecoveredGradients>
+      gradients_;  ///< if there is no level_set_, until the mesh is cut
   const CutOptions& options_;
   CutReport& report_;
   std::vector<std::int8_t> signs_;

@@ -7,6 +7,30 @@
 #include "cavea/surface/surface_model.h"
 
 namespace cavea {
+namespace {
+
+/// A facet's two edges at one of its corners.
+struct FacetAngle {
+  Vec3 to_next, to_last;
+
+  double mean_length2() const { return (norm2(to_next) + norm2(to_last)) / 2; }
+
+  /// What the facet adds to the normal at the corner: its area over the squared lengths of the two
+  /// edges (Max 1999, "Weights for computing vertex normals from facet normals"), with which the
+  /// normals of any triangulation of a sphere are exact. By area alone (paper, section 3.1) large
+  /// facets draw the normal towards theirs. Short edges count as longer: what tiny facets have for
+  /// a normal is mostly noise.
+  Vec3 share_of_normal(double short_length2) const {
+    return cross(to_next, to_last) /
+           ((norm2(to_next) + short_length2) * (norm2(to_last) + short_length2));
+  }
+};
+
+FacetAngle angle_at(const std::array<Vec3, 3>& corners, int k) {
+  return {corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]};
+}
+
+}  // namespace
 
 SurfaceModel::SurfaceModel(TetMesh& mesh, const Settings& settings) : settings_(settings) {
   take_facets(mesh);
@@ -117,27 +141,33 @@ std::vector<Vec3> SurfaceModel::given_normals(const TetMesh& mesh) const {
   return given;
 }
 
-/// Area-weighted normal of the smooth fan around each corner of each facet (paper, section 3.1);
-/// ridges end a fan, references do not. Where the fan is all there is at the vertex, a given
-/// normal is right, but for its direction: of an interface no side is the outer one.
+/// The normal of the smooth fan around each corner of each facet; ridges end a fan, references do
+/// not. Where the fan is all there is at the vertex, a given normal is right, but for its
+/// direction: of an interface no side is the outer one.
 void SurfaceModel::set_normals(const std::vector<Vec3>& given) {
-  std::vector<Vec3> area(facets_.size());
-  parallel_for(facets_.size(), [&](std::size_t f) {
-    const auto [a, b, c] = facet_corners(std::int32_t(f));
-    area[f] = cross(b - a, c - a);
-  });
+  constexpr double kShort = 0.05;  // of the fan's mean squared length
+  auto angle = [&](std::int32_t f, std::int32_t v) {
+    return angle_at(facet_corners(f), facets_[f][0] == v ? 0 : facets_[f][1] == v ? 1 : 2);
+  };
   normals_.resize(facets_.size());
   parallel_for(facets_.size(), [&](std::size_t f) {
     for (int k = 0; k < 3; ++k) {
-      Vec3 sum = area[f];
-      std::int32_t fan = 1;
-      for_fan(std::int32_t(f), k, true, [&](std::int32_t g) { sum += area[g], ++fan; });
       const std::int32_t v = facets_[f][k];
+      double length2 = 0;
+      std::int32_t fan = 0;
+      auto for_all = [&](auto&& work) {
+        work(std::int32_t(f));
+        for_fan(std::int32_t(f), k, true, work);
+      };
+      for_all([&](std::int32_t g) { length2 += angle(g, v).mean_length2(), ++fan; });
+      Vec3 sum;
+      for_all([&](std::int32_t g) { sum += angle(g, v).share_of_normal(kShort * length2 / fan); });
+      const Vec3 own = cross(angle(f, v).to_next, angle(f, v).to_last);
       const bool whole = fan == vertex_first_[v + 1] - vertex_first_[v];
       const double along = whole ? dot(given[v], sum) : 0;
       normals_[f][k] = along > 0 ? given[v] : along < 0 ? -given[v] : normalized(sum);
       // A fan that folds over itself has no normal to speak of; the facet's own keeps it flat here.
-      if (dot(normals_[f][k], area[f]) <= 0) normals_[f][k] = normalized(area[f]);
+      if (dot(normals_[f][k], own) <= 0) normals_[f][k] = normalized(own);
     }
   });
 }
