@@ -23,6 +23,13 @@ class OptionError : public Error {
   using Error::Error;
 };
 
+/// More is asked for than ids can name or memory can hold. The message has the estimate; nothing was
+/// allocated for it.
+class MemoryError : public Error {
+ public:
+  using Error::Error;
+};
+
 /// A file could not be written; nothing was left under its name.
 class OutputError : public Error {
  public:

@@ -9,9 +9,10 @@
 namespace cavea {
 namespace {
 
-/// Calls relax(from, to, length), which says whether it changed `to`, on all edges both ways until
-/// none changes. That has one result in any order where each step is monotone; the stamps let a
-/// sweep skip tets none of whose vertices has changed in the sweep before.
+/// Calls relax(from, to, length2), which says whether it changed `to`, on all edges both ways until
+/// none changes; it calls length2() if it needs it. That has one result in any order where each
+/// step is monotone; the stamps let a sweep skip tets none of whose vertices has changed in the
+/// sweep before.
 template <class Relax>
 void relax_edges(const TetMesh& mesh, Relax&& relax) {
   std::vector<std::int32_t> changed(mesh.points.size(), 0);
@@ -29,14 +30,20 @@ void relax_edges(const TetMesh& mesh, Relax&& relax) {
       if (!active) return;
       for (const auto& e : kEdgeVertices) {
         const VertexId a = v[e[0]], b = v[e[1]];
-        const double length = distance(mesh.points[a], mesh.points[b]);
-        if (relax(a, b, length)) stamp(b, sweep);
-        if (relax(b, a, length)) stamp(a, sweep);
+        const auto length2 = [&] { return distance2(mesh.points[a], mesh.points[b]); };
+        if (relax(a, b, length2)) stamp(b, sweep);
+        if (relax(b, a, length2)) stamp(a, sweep);
       }
     });
 }
 
 double load(float& x) { return std::atomic_ref(x).load(std::memory_order_relaxed); }
+
+/// Whether a difference is more than the slope allows over a length: no root for most edges.
+template <class Length2>
+bool is_steep(double difference, double slope, Length2&& length2) {
+  return difference > 0 && !(difference * difference <= slope * slope * length2());
+}
 
 /// Below these sizes none may come: the imposed ones, and around them what falls from them.
 std::vector<float> floors_around(const TetMesh& mesh, const ImposedSizes& imposed) {
@@ -44,8 +51,9 @@ std::vector<float> floors_around(const TetMesh& mesh, const ImposedSizes& impose
   std::vector<float> below(imposed.sizes.size());  // negative, so that the minimum is the largest
   for (std::size_t v = 0; v < below.size(); ++v) below[v] = -imposed.sizes[v];
   if (!below.empty())
-    relax_edges(mesh, [&](VertexId from, VertexId to, double length) {
-      const float bound = float(load(below[from]) + slope * length);
+    relax_edges(mesh, [&](VertexId from, VertexId to, auto&& length2) {
+      if (!is_steep(load(below[to]) - load(below[from]), slope, length2)) return false;
+      const float bound = float(load(below[from]) + slope * std::sqrt(length2()));
       if (!(bound < load(below[to]))) return false;
       atomic_min(below[to], bound);
       return true;
@@ -62,9 +70,10 @@ void limit_gradation(TetMesh& mesh, double h_grad, const ImposedSizes& imposed) 
   for (std::size_t v = 0; v < floors.size(); ++v)
     mesh.sizes[v] = is_imposed(VertexId(v)) ? imposed.sizes[v] : std::max(mesh.sizes[v], floors[v]);
   const double slope = std::log(h_grad), slope_at_imposed = std::log(imposed.h_grad);
-  relax_edges(mesh, [&](VertexId low, VertexId high, double length) {
+  relax_edges(mesh, [&](VertexId low, VertexId high, auto&& length2) {
     const double rise = is_imposed(low) || is_imposed(high) ? slope_at_imposed : slope;
-    float bound = float(load(mesh.sizes[low]) + rise * length);
+    if (!is_steep(load(mesh.sizes[high]) - load(mesh.sizes[low]), rise, length2)) return false;
+    float bound = float(load(mesh.sizes[low]) + rise * std::sqrt(length2()));
     if (!floors.empty()) bound = std::max(bound, floors[high]);
     if (!(bound < load(mesh.sizes[high]))) return false;  // nor if it is none: 0 times infinity
     atomic_min(mesh.sizes[high], bound);

@@ -1,5 +1,6 @@
 #include "cavea/field/own_sizes.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "cavea/field/mean_lengths.h"
@@ -29,6 +30,14 @@ void for_each_required_edge(const TetMesh& m, TetId t, bool whole_surface, F&& f
   }
 }
 
+bool has_required_edges(const TetMesh& m) {
+  const auto is_required = [](const Triangle& s) {
+    return ((s.tags | s.edge_tag[0] | s.edge_tag[1] | s.edge_tag[2]) & tag::kRequired) != 0;
+  };
+  return std::ranges::any_of(m.triangles, is_required) ||
+         std::ranges::any_of(m.vertex_tags, [](Tag t) { return t & tag::kOnRequiredEdge; });
+}
+
 }  // namespace
 
 SizeField own_sizes(TetMesh mesh) {
@@ -37,6 +46,7 @@ SizeField own_sizes(TetMesh mesh) {
 }
 
 std::vector<float> required_sizes(const TetMesh& mesh, bool whole_surface) {
+  if (!whole_surface && !has_required_edges(mesh)) return {};
   std::vector<float> sizes = mean_lengths(
       mesh, [&](TetId t, auto&& f) { for_each_required_edge(mesh, t, whole_surface, f); });
   if (std::all_of(sizes.begin(), sizes.end(), [](float h) { return h == 0; })) sizes.clear();

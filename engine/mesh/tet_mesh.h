@@ -165,6 +165,21 @@ struct TetMesh {
     tet_refs.resize(n);
     tet_flags.resize(n);
   }
+  void reserve_vertices(std::size_t n) {
+    points.reserve(n);
+    sizes.reserve(n);
+    vertex_tags.reserve(n);
+    vertex_refs.reserve(n);
+    vertex_tets.reserve(n);
+    anchors.reserve(n);
+  }
+  void reserve_tets(std::size_t n) {
+    tets.reserve(n);
+    links.reserve(n);
+    qualities.reserve(n);
+    tet_refs.reserve(n);
+    tet_flags.reserve(n);
+  }
 };
 
 namespace tet_flag {

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <span>
 #include <tuple>
+#include <utility>
 
-#include "cavea/base/buckets.h"
 #include "cavea/base/parallel.h"
 
 namespace cavea {
@@ -29,26 +30,47 @@ std::vector<std::int32_t> vertex_parts(const TetMesh& mesh,
   return part;
 }
 
-/// Ascending members of each bucket, and each member's position in its bucket.
-struct Groups {
-  Buckets buckets;
+/// The members of each key's group, ascending, and each member's position in its group: a counting
+/// sort whose blocks keep their order.
+class Groups {
+ public:
+  Groups(const std::vector<std::int32_t>& key, int keys)
+      : local(key.size(), kNone), keys_(std::size_t(keys)), first_(keys_ + 1, 0) {
+    // Few blocks, as each has counters for all keys.
+    const std::size_t block = std::max(kReduceBlock, 16 * keys_);
+    const std::size_t blocks = (key.size() + block - 1) / block;
+    std::vector<std::uint32_t> next(blocks * keys_, 0);
+    auto for_block = [&](std::size_t b, auto&& work) {
+      std::uint32_t* counters = next.data() + b * keys_;
+      for (std::size_t i = b * block; i < std::min(key.size(), (b + 1) * block); ++i)
+        if (key[i] >= 0) work(i, counters[key[i]]);
+    };
+    parallel_tasks(blocks, [&](std::size_t b) {
+      for_block(b, [](std::size_t, std::uint32_t& count) { ++count; });
+    });
+    std::uint32_t total = 0;
+    for (std::size_t k = 0; k < keys_; ++k) {
+      for (std::size_t b = 0; b < blocks; ++b) total += std::exchange(next[b * keys_ + k], total);
+      first_[k + 1] = total;
+    }
+    members_.resize(total);
+    parallel_tasks(blocks, [&](std::size_t b) {
+      for_block(b, [&](std::size_t i, std::uint32_t& at) {
+        local[i] = std::int32_t(at - first_[std::size_t(key[i])]);
+        members_[at++] = std::uint32_t(i);
+      });
+    });
+  }
+
+  std::span<const std::uint32_t> of(std::size_t key) const {
+    return {members_.data() + first_[key], first_[key + 1] - first_[key]};
+  }
+
   std::vector<std::int32_t> local;
 
-  Groups(const std::vector<std::int32_t>& key, int keys)
-      : buckets(key.size(), std::size_t(keys),
-                [&](std::size_t i, auto&& put) {
-                  if (key[i] >= 0) put(key[i], std::uint32_t(i));
-                }),
-        local(key.size(), kNone) {
-    parallel_for(
-        std::size_t(keys),
-        [&](std::size_t k) {
-          const auto members = buckets.of(k);
-          std::sort(members.begin(), members.end());
-          for (std::size_t i = 0; i < members.size(); ++i) local[members[i]] = std::int32_t(i);
-        },
-        1);
-  }
+ private:
+  std::size_t keys_;
+  std::vector<std::uint32_t> first_, members_;
 };
 
 /// What all parts are extracted from.
@@ -66,10 +88,7 @@ struct Whole {
 class Extraction {
  public:
   Extraction(Whole& whole, int number, Part& part)
-      : whole_(whole),
-        number_(number),
-        part_(part),
-        tets_(whole.tets.buckets.of(std::size_t(number))) {}
+      : whole_(whole), number_(number), part_(part), tets_(whole.tets.of(std::size_t(number))) {}
 
   void run() {
     take_vertices();
@@ -93,7 +112,7 @@ class Extraction {
   }
 
   void take_vertices() {
-    const auto own = whole_.vertices.buckets.of(std::size_t(number_));
+    const auto own = whole_.vertices.of(std::size_t(number_));
     part_.own_vertices.assign(own.begin(), own.end());
     auto& shared = part_.shared_vertices;
     for (std::uint32_t t : tets_)

@@ -89,6 +89,14 @@ std::vector<std::int32_t> label_parts(const TetMesh& m, const std::vector<TetId>
   return labels;
 }
 
+/// Lets a mesh of which much is in the parts grow a little without being moved while they are held.
+void make_room(TetMesh& m, std::size_t active) {
+  constexpr std::size_t kMuch = 4, kShare = 8;  // rounds of fine and polish add fewer
+  if (kMuch * active < m.tets.size()) return;
+  m.reserve_vertices(m.points.size() + m.points.size() / kShare);
+  m.reserve_tets(m.tets.size() + m.tets.size() / kShare);
+}
+
 RoundResult run_whole(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings) {
   RoundResult result{run_cycle(mesh, surface, settings), 1};
   compact(mesh);
@@ -117,8 +125,8 @@ RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
     if (part_of_tet) part_of_tet->assign(mesh.tets.size(), 0);
     return result;
   }
-  const std::vector<std::int32_t> labels = label_parts(mesh, active, count);
-  std::vector<Part> parts = extract_parts(mesh, labels, count);
+  make_room(mesh, active.size());
+  std::vector<Part> parts = extract_parts(mesh, label_parts(mesh, active, count), count);
   std::vector<CycleResult> results(parts.size());
   // Largest first, so that the last to finish is small.
   std::vector<std::size_t> order(parts.size());

@@ -37,6 +37,7 @@ void Budget::fit(const TetMesh& mesh, const std::function<void()>& set_sizes) {
 }
 
 void Budget::learn(const TetMesh& mesh) {
+  if (!given()) return;
   const double ratio = double(mesh.tets.size()) / wanted_tets(mesh);
   tets_per_regular_ =
       std::clamp(ratio, tets_per_regular_ / kMostChange, tets_per_regular_ * kMostChange);

@@ -113,6 +113,8 @@ void validate(const Options& o) {
   require_ratio(o.hgradreq, "hgradreq");
   if (o.max_tets && *o.max_tets < 1)
     throw OptionError(fmt::format("max_tets must be at least 1, not {}", *o.max_tets));
+  if (o.max_memory && *o.max_memory < 1)
+    throw OptionError(fmt::format("max_memory must be at least 1 byte, not {}", *o.max_memory));
   require_range(o.angle, 0, 180, "angle");
   require_range(o.min_quality, 0, 1, "min_quality");
   require_range(o.min_conform, 0, 100, "min_conform");

@@ -61,6 +61,9 @@ struct Options {
   /// A budget: where more tets than this are predicted, sizes (but those of required entities) and
   /// the operators' tolerance are made coarser until the result has about as many.
   std::optional<std::int64_t> max_tets;
+  /// Bytes that the run may use: what is foreseen to need more is refused with MemoryError. Not
+  /// given: what the machine has.
+  std::optional<std::int64_t> max_memory;
   double angle = 45;  ///< degrees between normals above which an edge is a ridge
   bool detect_ridges = true;
 

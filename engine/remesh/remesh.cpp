@@ -17,6 +17,7 @@
 #include "cavea/part/round.h"
 #include "cavea/remesh/budget.h"
 #include "cavea/remesh/bulk.h"
+#include "cavea/remesh/forecast.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/resolved.h"
 #include "cavea/remesh/seeding.h"
@@ -66,6 +67,7 @@ class Run {
         field_(field),
         options_(options),
         effort_(effort),
+        most_bytes_(options.max_memory.value_or(usable_bytes())),
         budget_(options.max_tets) {
     compact(mesh_);
     if (options.optim) field_ = own_sizes(mesh_);
@@ -119,6 +121,7 @@ class Run {
     sizes_vary_ = !r_.uniform() || budget_.given() || r_.freeze.surface ||
                   (r_.hgradreq && !required_sizes(mesh_).empty());
     resize();
+    refuse_too_large(mesh_, law(), most_bytes_);
     if (budget_.binds()) loosen();
     mesh_.normals.clear();
     report_.before.lengths = length_statistics(mesh_);
@@ -192,10 +195,13 @@ class Run {
     refine_in_bulk(mesh_, working_surface(), which, [&] { resize(); });
   }
 
+  SizeLaw law() const {
+    return {budget_.scale() * r_.hmin, budget_.scale() * r_.hmax, r_.hgrad, budget_.scale(),
+            field_};
+  }
+
   std::int64_t seed() {
-    const SeedingOptions options{budget_.scale() * r_.hmin, budget_.scale() * r_.hmax, r_.hgrad,
-                                 budget_.scale(), field_};
-    const std::int64_t seeds = seed_interior(mesh_, options, verdicts_);
+    const std::int64_t seeds = seed_interior(mesh_, law(), verdicts_);
     if (sizes_vary_ && seeds > 0) resize();
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
     trust_good_tets(mesh_);
@@ -276,6 +282,7 @@ class Run {
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= phase.ask;
     for (int round = 1; round <= phase.rounds || more_for_budget(phase, round); ++round) {
       tell(phase.name, round);
+      refuse_too_large(mesh_, most_bytes_);
       if (phase.resize && round > 1 && sizes_vary_) resize(), ask_lengths(mesh_);
       if (report_.part_of_tet.size() == mesh_.tets.size() && is_nothing_asked(mesh_)) break;
       if (phase.growth > 0)
@@ -436,6 +443,7 @@ class Run {
   std::optional<DistanceMeter> meter_;  ///< from surface_
   SurfaceDistance distance_;
   VerdictTable verdicts_;
+  std::int64_t most_bytes_;
   Budget budget_;
   Timer timer_;
 };

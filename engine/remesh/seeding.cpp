@@ -34,17 +34,14 @@ bool conforms(const TetMesh& m, TetId t) {
 
 }  // namespace
 
-std::int64_t seed_interior(TetMesh& mesh, const SeedingOptions& o, VerdictTable& verdicts) {
+std::int64_t seed_interior(TetMesh& mesh, const SizeLaw& law, VerdictTable& verdicts) {
   SeedOptions options;
-  options.growth = std::isfinite(o.hgrad) ? std::log(o.hgrad) : std::numeric_limits<double>::max();
-  options.size = [&](const Vec3& p, double bound) {
-    const double most = std::min(bound, o.hmax);
-    return o.field ? std::max(o.hmin, std::min(most, o.scale * o.field(p))) : most;
-  };
+  options.growth = law.growth();
+  options.size = [&](const Vec3& p, double bound) { return law.bounded(p, bound); };
   // The largest size is that of most of the volume: its cells are to fit.
   const double smallest = *std::ranges::min_element(mesh.sizes);
-  const int levels = std::clamp(int(std::ceil(std::log2(o.hmax / smallest))), 0, kMostLevels);
-  options.lattice.cell = std::ldexp(kCell * o.hmax, -levels);
+  const int levels = std::clamp(int(std::ceil(std::log2(law.hmax / smallest))), 0, kMostLevels);
+  options.lattice.cell = std::ldexp(kCell * law.hmax, -levels);
   const double cells = box_diagonal(mesh) / (kCoarsest * options.lattice.cell);
   const int coarsest = std::max(0, int(std::floor(std::log2(cells))));
   std::int64_t seeds = 0;

@@ -37,8 +37,8 @@ bool is_poor(const TetMesh& m, TetId t) {
   if (m.qualities[t] < kPoorQuality) return true;
   return std::ranges::any_of(kEdgeVertices, [&](const auto& e) {
     const VertexId a = m.tets[t][e[0]], b = m.tets[t][e[1]];
-    const double length = metric_length(distance(m.points[a], m.points[b]), m.sizes[a], m.sizes[b]);
-    return length > kTooLong || length < kTooShort;
+    const double length2 = distance2(m.points[a], m.points[b]), h0 = m.sizes[a], h1 = m.sizes[b];
+    return length_exceeds(length2, h0, h1, kTooLong) || !length_exceeds(length2, h0, h1, kTooShort);
   });
 }
 

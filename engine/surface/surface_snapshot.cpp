@@ -150,14 +150,15 @@ void SurfaceModel::set_normals(const std::vector<Vec3>& given) {
     return angle_at(facet_corners(f), facets_[f][0] == v ? 0 : facets_[f][1] == v ? 1 : 2);
   };
   normals_.resize(facets_.size());
-  parallel_for(facets_.size(), [&](std::size_t f) {
+  parallel_for(facets_.size(), [&](std::size_t i) {
+    const auto f = std::int32_t(i);
     for (int k = 0; k < 3; ++k) {
       const std::int32_t v = facets_[f][k];
       double length2 = 0;
       std::int32_t fan = 0;
       auto for_all = [&](auto&& work) {
-        work(std::int32_t(f));
-        for_fan(std::int32_t(f), k, true, work);
+        work(f);
+        for_fan(f, k, true, work);
       };
       for_all([&](std::int32_t g) { length2 += angle(g, v).mean_length2(), ++fan; });
       Vec3 sum;

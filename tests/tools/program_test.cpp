@@ -220,6 +220,18 @@ TEST_F(RunTest, KeepsToABudget) {
   EXPECT_EQ(report["targets"].size(), 6u);
 }
 
+TEST_F(RunTest, RefusesWhatMemoryCannotHold) {
+  const Outcome outcome =
+      cavea({"remesh", kSample, "-o", "out.mesh", "--hsiz", "1", "--max-memory", "10M"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("0.01 GB may be used"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(file("out.mesh")));
+  EXPECT_EQ(
+      cavea({"remesh", kSample, "-o", "out.mesh", "--hsiz", "1e-7", "--max-memory", "1T"}).status,
+      2)
+      << "beyond what ids can name";
+}
+
 TEST_F(RunTest, ReportsWhichGradationsAreOff) {
   write_text(file("in.mesh"), cube_text());
   ASSERT_EQ(cavea({"remesh", "in.mesh", "--optim", "--no-hgrad", "--no-hgradreq", "-o", "out.mesh",

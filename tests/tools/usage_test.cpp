@@ -85,6 +85,8 @@ TEST_F(UsageTest, RefusesNumbersThatAreNone) {
   expect_option_refused({"--threads", "1.5"}, "--threads");
   for (const char* value : {"x", "1.5", ""})
     expect_option_refused({"--max-tets", value}, "--max-tets");
+  for (const char* value : {"x", "8Q", ""})
+    expect_option_refused({"--max-memory", value}, "--max-memory");
 }
 
 TEST_F(UsageTest, RefusesSizesThatAreNotPositive) {
@@ -103,6 +105,8 @@ TEST_F(UsageTest, RefusesOtherSenselessOptions) {
     expect_option_refused({"--angle", value}, "angle");
   for (const char* value : {"0", "-2"}) expect_option_refused({"--threads", value}, "threads");
   for (const char* value : {"0", "-5"}) expect_option_refused({"--max-tets", value}, "max_tets");
+  expect_option_refused({"--max-memory", "0"}, "max_memory");
+  expect_option_refused({"--max-memory", "-5G"}, "--max-memory");
   for (const char* value : {"nan", "1.5", "-0.1"})
     expect_option_refused({"--min-quality", value}, "quality");
   for (const char* value : {"nan", "101", "-1"})

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -29,6 +30,8 @@ int guarded(const std::function<int()>& command) {
   } catch (const InputError& e) {
     return fail(kBadInput, e.what());
   } catch (const OptionError& e) {
+    return fail(kBadInput, e.what());
+  } catch (const MemoryError& e) {
     return fail(kBadInput, e.what());
   } catch (const std::bad_alloc&) {
     return fail(kOurFault, "out of memory");
@@ -63,5 +66,9 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Arrays of large meshes go back to the system when they are freed. By default the allocator
+  // learns from the first ones to keep what is as large, and half of the memory is then holes.
+  constexpr int kLargeBlock = 1 << 18;
+  mallopt(M_MMAP_THRESHOLD, kLargeBlock);
   return guarded([&] { return run(argc, argv); });
 }

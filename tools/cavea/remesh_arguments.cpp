@@ -36,6 +36,10 @@ void add_size_flags(CLI::App& command, RemeshArguments& arguments, const char* s
       ->excludes(uniform);
   command.add_option("--max-tets", options.max_tets,
                      "Number of tetrahedra to keep to, by larger edges where needed");
+  command
+      .add_option("--max-memory", options.max_memory,
+                  "Refuse what is foreseen to need more bytes, as 8G [all there are]")
+      ->transform(CLI::AsSizeValue(true));
   command.add_flag("--optim", options.optim, "Keep the mesh's own edge lengths")
       ->excludes(uniform)
       ->excludes(sizes);

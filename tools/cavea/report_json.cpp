@@ -29,6 +29,8 @@ Json options_json(const RunReport& run) {
   if (!run.arguments.parameters.empty()) options["params"] = run.arguments.parameters;
   options["max_tets"] = nullptr;
   if (asked.max_tets) options["max_tets"] = *asked.max_tets;
+  options["max_memory"] = nullptr;
+  if (asked.max_memory) options["max_memory"] = *asked.max_memory;
   options["optim"] = asked.optim;
   options["hgradreq"] = nullptr;
   if (asked.hgradreq && !run.arguments.no_hgradreq) options["hgradreq"] = *asked.hgradreq;
