@@ -27,6 +27,18 @@ void gather_ball(const TetMesh& mesh, VertexId v, TetMarker& marker, Ball& ball)
   }
 }
 
+std::vector<TetId> small_ball(const TetMesh& mesh, VertexId v) {
+  std::vector<TetId> ball = {mesh.vertex_tets[v]};
+  for (std::size_t i = 0; i < ball.size(); ++i)
+    for (int f = 0; f < 4; ++f) {
+      if (mesh.tets[ball[i]][f] == v) continue;
+      const FaceLink next = mesh.across(ball[i], f);
+      if (next.is_tet() && std::ranges::find(ball, next.tet()) == ball.end())
+        ball.push_back(next.tet());
+    }
+  return ball;
+}
+
 namespace {
 
 /// The two other local vertices of an edge (i, j) so that (i, j, third, fourth) is even.

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 
 #include "cavea/base/parallel.h"
 #include "cavea/mesh/compact.h"
+#include "cavea/mesh/fill_holes.h"
+#include "cavea/mesh/local.h"
 #include "cavea/mesh/renumber.h"
 #include "cavea/mesh/wanted_tets.h"
 #include "cavea/part/extract.h"
@@ -33,10 +36,48 @@ bool is_asked(const TetMesh& m, std::size_t t, const CycleSettings& s) {
          ((flags & tet_flag::kAskMove) && m.qualities[t] <= s.move_ceiling);
 }
 
-/// The tets that are asked something and those around.
-std::vector<std::uint8_t> active_tets(const TetMesh& m, const CycleSettings& settings) {
-  std::vector<std::uint8_t> active(m.tets.size()), near(m.points.size(), 0);
-  parallel_for(m.tets.size(), [&](std::size_t t) { active[t] = is_asked(m, t, settings); });
+/// The tets that are asked something, ascending.
+std::vector<TetId> asked_tets(const TetMesh& m, const CycleSettings& settings) {
+  using Ids = std::vector<TetId>;
+  return parallel_reduce(
+      m.tets.size(), Ids{},
+      [&](std::size_t begin, std::size_t end) {
+        Ids ids;
+        for (std::size_t t = begin; t < end; ++t)
+          if (is_asked(m, t, settings)) ids.push_back(TetId(t));
+        return ids;
+      },
+      [](Ids all, const Ids& more) {
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+      });
+}
+
+template <class Id>
+void sort_unique(std::vector<Id>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+/// Few tets and those around, by their balls.
+std::vector<TetId> with_layers_of_few(const TetMesh& m, std::vector<TetId> tets) {
+  for (int layer = 0; layer < kLayers; ++layer) {
+    std::vector<VertexId> vertices;
+    for (const TetId t : tets) vertices.insert(vertices.end(), m.tets[t].begin(), m.tets[t].end());
+    sort_unique(vertices);
+    for (const VertexId v : vertices) {
+      const std::vector<TetId> ball = small_ball(m, v);
+      tets.insert(tets.end(), ball.begin(), ball.end());
+    }
+    sort_unique(tets);
+  }
+  return tets;
+}
+
+/// Many tets and those around, by marks on all.
+std::vector<TetId> with_layers_of_many(const TetMesh& m, const std::vector<TetId>& tets) {
+  std::vector<std::uint8_t> active(m.tets.size(), 0), near(m.points.size(), 0);
+  parallel_for(tets.size(), [&](std::size_t i) { active[tets[i]] = 1; });
   for (int layer = 0; layer < kLayers; ++layer) {
     parallel_for(m.tets.size(), [&](std::size_t t) {
       if (!active[t]) return;
@@ -47,15 +88,38 @@ std::vector<std::uint8_t> active_tets(const TetMesh& m, const CycleSettings& set
       for (const VertexId v : m.tets[t]) active[t] |= near[v];
     });
   }
-  return active;
-}
-
-/// The ids of the active tets, ascending.
-std::vector<TetId> ids_of(const std::vector<std::uint8_t>& active) {
   std::vector<TetId> ids;
   for (std::size_t t = 0; t < active.size(); ++t)
     if (active[t]) ids.push_back(TetId(t));
   return ids;
+}
+
+/// Where less than this share of the mesh is asked, or is holes, it is worth not to touch the rest.
+constexpr std::size_t kFew = 64;
+
+/// The tets that are asked something and those around, ascending.
+std::vector<TetId> active_tets(const TetMesh& m, const CycleSettings& settings) {
+  std::vector<TetId> asked = asked_tets(m, settings);
+  return kFew * asked.size() < m.tets.size() ? with_layers_of_few(m, std::move(asked))
+                                             : with_layers_of_many(m, asked);
+}
+
+std::size_t count_holes(const TetMesh& m) {
+  return parallel_reduce(
+      m.tets.size(), std::size_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::size_t n = 0;
+        for (std::size_t t = begin; t < end; ++t) n += !m.tet_alive(TetId(t));
+        return n;
+      },
+      std::plus<>{});
+}
+
+/// \param part_of by tet, kept in step
+void remove_holes(TetMesh& m, std::vector<std::int32_t>& part_of) {
+  if (kFew * count_holes(m) < m.tets.size()) return fill_holes(m, &part_of);
+  part_of = living_tets(m).kept_of(part_of);
+  compact(m);
 }
 
 /// A part for each of the tets, kIdle for those that are not in the list.
@@ -114,7 +178,7 @@ int part_count(std::int64_t tets) {
 
 RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings,
                       std::vector<std::int32_t>* part_of_tet) {
-  const std::vector<TetId> active = ids_of(active_tets(mesh, settings));
+  const std::vector<TetId> active = active_tets(mesh, settings);
   if (active.empty()) {
     if (part_of_tet) part_of_tet->assign(mesh.tets.size(), kIdle);
     return {{}, 0};
@@ -141,8 +205,8 @@ RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
   });
   std::vector<std::int32_t> part_of(mesh.tets.size(), kIdle);
   stitch_parts(mesh, parts, part_of);
-  if (part_of_tet) *part_of_tet = living_tets(mesh).kept_of(part_of);
-  compact(mesh);
+  remove_holes(mesh, part_of);
+  if (part_of_tet) *part_of_tet = std::move(part_of);
   RoundResult result;
   result.parts = count;
   for (const CycleResult& r : results) {
