@@ -42,7 +42,7 @@ void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>&
       if (!(wish > 0)) atomic_min(senseless, VertexId(v));
       h = std::min(h, wish);
     }
-    mesh.sizes[v] = float(bounds.scale * std::max(h, double(at.hmin[v])));
+    mesh.sizes[v] = float(bounds.scale * std::max(bounds.finer * h, double(at.hmin[v])));
   });
   if (std::size_t(senseless) < mesh.points.size()) {
     const Vec3& p = mesh.points[senseless];

@@ -13,6 +13,7 @@ namespace cavea {
 struct SizeBounds {
   double hmin = 0, hmax = 0;
   std::span<const LocalParameters> local = {};  ///< other bounds, by reference
+  double finer = 1;                             ///< of what is wished, before it is bounded
   double scale = 1;                             ///< of what has been bounded, before the gradation
   double hgrad = 1;                             ///< infinity for no bound
   /// The gradation from required entities; they impose the lengths of their own edges. None: they

@@ -61,12 +61,13 @@ std::string to_text(const Vec3& p) {
 class Run {
  public:
   Run(const TetMesh& input, const SizeField& field, const Options& options,
-      Effort effort = Effort::kWhereNeeded)
+      Effort effort = Effort::kWhereNeeded, double finer = 1)
       : mesh_(input),
         input_(input),
         field_(field),
         options_(options),
         effort_(effort),
+        finer_(finer),
         most_bytes_(options.max_memory.value_or(usable_bytes())),
         budget_(options.max_tets) {
     compact(mesh_);
@@ -88,6 +89,12 @@ class Run {
     timed("statistics", [&] { measure(); });
     if (options_.directions) report_.directions = surface_directions(mesh_, *surface_);
     report_.peak_resident_bytes = peak_resident_bytes();
+  }
+
+  /// Whether the input is what is asked for, but for places; nothing else is done.
+  bool stands() {
+    analyse();
+    return ask_if_it_stands();
   }
 
   /// Whether the input was as good as the result: it is then better left as it is.
@@ -173,7 +180,7 @@ class Run {
   void resize() {
     budget_.fit(mesh_, [&] {
       set_wanted_sizes(mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_,
-                       {std::min(r_.hmin, spot_floor_), r_.hmax, r_.local, budget_.scale(),
+                       {std::min(r_.hmin, spot_floor_), r_.hmax, r_.local, finer_, budget_.scale(),
                         r_.hgrad, r_.hgradreq, r_.freeze.surface});
     });
   }
@@ -196,8 +203,8 @@ class Run {
   }
 
   SizeLaw law() const {
-    return {budget_.scale() * r_.hmin, budget_.scale() * r_.hmax, r_.hgrad, budget_.scale(),
-            field_};
+    return {budget_.scale() * r_.hmin, finer_ * budget_.scale() * r_.hmax, r_.hgrad,
+            budget_.scale(), field_};
   }
 
   std::int64_t seed() {
@@ -387,6 +394,7 @@ class Run {
     report_.verdicts = counts_of(verdicts_);
     report_.stubborn = find_stubborn(mesh_, working_surface(), last_phase(r_).cycle,
                                      std::max(kSoundQuality, options_.min_quality));
+    report_.finer = finer_;
     report_.hausd = r_.hausd, report_.hmin = r_.hmin, report_.hmax = r_.hmax,
     report_.hgrad = r_.hgrad;
     crossings_ = find_crossings(mesh_);
@@ -433,6 +441,7 @@ class Run {
   double spot_floor_ = std::numeric_limits<double>::infinity();
   const Options& options_;
   Effort effort_;
+  double finer_;  ///< of the sizes that are not given
   bool may_mend_ =
       false;            ///< the input has the surface and number of tets wanted, operators are free
   bool mends_ = false;  ///< only poor tets are asked
@@ -448,6 +457,60 @@ class Run {
   Timer timer_;
 };
 
+struct Result {
+  TetMesh mesh;
+  Report report;
+
+  /// What was tried before took its time, too.
+  void add_before(const std::vector<PhaseTime>& phases) {
+    report.phases.insert(report.phases.begin(), phases.begin(), phases.end());
+  }
+};
+
+/// A run, and where the input turns out to be as good as its result another one that only mends it.
+Result run_once(const TetMesh& input, const SizeField& field, const Options& options,
+                double finer) {
+  std::optional<Run> run;
+  run.emplace(input, field, options, Effort::kWhereNeeded, finer);
+  (*run)();
+  std::vector<PhaseTime> in_vain;
+  if (run->in_vain()) {
+    in_vain = std::move(run->report_.phases);
+    run.emplace(input, field, options, Effort::kMend, finer);
+    (*run)();
+  }
+  Result result{std::move(run->mesh_), std::move(run->report_)};
+  result.add_before(in_vain);
+  return result;
+}
+
+/// Where elements have no room, smaller ones, if that helps: those that the input has already, or
+/// else the largest ones.
+Result run_with_room(const TetMesh& input, const SizeField& field, const Options& options) {
+  const auto room = [&](const Result& result) {
+    return room_in(result.report.after, options, bool(field));
+  };
+  Result first = run_once(input, field, options, 1);
+  if (room(first) == Room::kEnough) return first;
+  std::vector<double> to_try = {0.8, 0.64, 0.512};  // the last makes about eight times the tets
+  const auto rest = std::ranges::stable_partition(to_try, [&](double finer) {
+    return has_the_quality_of_results(first.report.before.quality, false) &&
+           Run(input, field, options, Effort::kWhereNeeded, finer).stands();
+  });
+  // A little room is found by one run and missed by the next: what the input has decides.
+  if (room(first) == Room::kLittle) to_try.erase(rest.begin(), rest.end());
+  std::vector<PhaseTime> tried;
+  for (const double finer : to_try) {
+    Result result = run_once(input, field, options, finer);
+    const bool helps = room(result) != Room::kMissing;
+    if (helps) std::swap(first, result);
+    tried.insert(tried.end(), result.report.phases.begin(), result.report.phases.end());
+    if (helps) break;
+  }
+  first.add_before(tried);
+  return first;
+}
+
 }  // namespace
 
 Report remesh(TetMesh& mesh, const SizeField& field, const Options& options) {
@@ -457,17 +520,9 @@ Report remesh(TetMesh& mesh, const SizeField& field, const Options& options) {
   const Timer timer;
   Report report;
   run_in_arena(threads, [&] {
-    std::optional<Run> run;
-    run.emplace(mesh, field, options);
-    (*run)();
-    if (run->in_vain()) {
-      const std::vector<PhaseTime> before = std::move(run->report_.phases);
-      run.emplace(mesh, field, options, Effort::kMend);
-      (*run)();
-      run->report_.phases.insert(run->report_.phases.begin(), before.begin(), before.end());
-    }
-    report = std::move(run->report_);
-    mesh = std::move(run->mesh_);
+    Result result = run_with_room(mesh, field, options);
+    report = std::move(result.report);
+    mesh = std::move(result.mesh);
   });
   report.threads = threads;
   report.seconds = timer.seconds();

@@ -71,8 +71,12 @@ void ask_lengths_where(TetMesh& m, Ask&& ask) {
 
 }  // namespace
 
+bool has_the_quality_of_results(const QualityStatistics& now, bool uniform) {
+  return now.mean >= (uniform ? kUniformMean : kVaryingMean);
+}
+
 bool is_as_good_as_results(const MeshSummary& now, bool uniform, double conform) {
-  return now.quality.mean >= (uniform ? kUniformMean : kVaryingMean) &&
+  return has_the_quality_of_results(now.quality, uniform) &&
          now.lengths.conforming_percent() >= conform;
 }
 
@@ -87,6 +91,19 @@ bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const O
          after.quality.mean < before.quality.mean + kGain &&
          share_of_poor(after.quality) > share_of_poor(before.quality) - kGain &&
          after.lengths.conforming_percent() < before.lengths.conforming_percent() + kConformGain;
+}
+
+Room room_in(const MeshSummary& after, const Options& options, bool has_field) {
+  // All bodies that are nowhere narrow reach the first; with the second no other run misses it.
+  constexpr double kRoomyMean = 0.78, kSurelyRoomyMean = 0.82;
+  constexpr double kRoomyConform = 90;         // the usual target
+  constexpr std::int64_t kCoarseMesh = 50000;  // larger ones should not grow eightfold unasked
+  const bool sizes_are_given = has_field || options.hsiz || options.optim || options.max_tets ||
+                               options.freeze.any_operator() || options.freeze.surface;
+  const double mean = after.quality.mean, conform = after.lengths.conforming_percent();
+  if (sizes_are_given || after.counts.tets >= kCoarseMesh) return Room::kEnough;
+  if (mean < kRoomyMean || conform < kRoomyConform) return Room::kMissing;
+  return mean < kSurelyRoomyMean ? Room::kLittle : Room::kEnough;
 }
 
 std::int64_t count_poor(const TetMesh& mesh) {

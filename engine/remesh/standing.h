@@ -9,13 +9,22 @@
 
 namespace cavea {
 
-/// Whether the mean quality is what runs reach on bodies that are nowhere thin, and `conform`
-/// percent of the lengths conform.
+/// Whether the mean quality is what runs reach on bodies that are nowhere thin.
+bool has_the_quality_of_results(const QualityStatistics& now, bool uniform);
+
+/// The same, and `conform` percent of the lengths conform.
 bool is_as_good_as_results(const MeshSummary& now, bool uniform, double conform);
 
 /// Whether quality and lengths have not become better by more than chance would make them, nor met
 /// a target of the options that they missed.
 bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const Options& options);
+
+/// How much room the shape leaves for elements of the sizes asked for: in strips one of them wide
+/// all are of a poor quality, or few have the lengths wanted.
+enum class Room { kMissing, kLittle, kEnough };
+
+/// Only meshes that are coarse on the whole lack room, and where the caller left the sizes to us.
+Room room_in(const MeshSummary& after, const Options& options, bool has_field);
 
 /// How many tets are poor: far from what is wanted, in quality or in length. Needs the sizes.
 std::int64_t count_poor(const TetMesh& mesh);

@@ -105,6 +105,7 @@ Json to_json(const RunReport& run) {
               {"tets_per_second", report.tets_per_second},
               {"peak_resident_bytes", report.peak_resident_bytes},
               {"phases", phases_json(report)},
+              {"finer", report.finer},
               {"before", to_json(report.before)},
               {"after", to_json(report.after)},
               {"verdicts", verdicts_json(report.verdicts)},
