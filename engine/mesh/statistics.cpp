@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <tuple>
 
 #include "cavea/base/buckets.h"
 #include "cavea/base/parallel.h"
@@ -28,9 +30,12 @@ std::size_t equal_bin(double x, double top, std::size_t bins) {
 Vec3 centroid(const std::array<Vec3, 4>& p) { return 0.25 * (p[0] + p[1] + p[2] + p[3]); }
 
 struct QualitySum {
+  static constexpr double kDegree = std::numbers::pi / 180;
+
   QualityStatistics result;
   double sum = 0;
   std::int64_t tets = 0;
+  double largest_cosine = -kInfinity, smallest_cosine = kInfinity;  ///< of the angles so far
 
   QualitySum() {
     result.worst = result.smallest_dihedral = kInfinity;
@@ -47,12 +52,43 @@ struct QualitySum {
       result.worst = quality;
       result.worst_tet = t;
     }
-    for (const auto& e : kEdgeVertices) add_angle(dihedral(p[e[0]], p[e[1]], p[e[2]], p[e[3]]));
+    add_angles(p);
+  }
+  /// The bin of an angle is told by its cosine, unless it is near the ends of the scale or beyond
+  /// all others: then the arc tangent is worth its time.
+  void add_angles(const std::array<Vec3, 4>& p) {
+    constexpr double kNearEnd = 0.999;
+    std::array<Vec3, 4> normals;
+    std::array<double, 4> lengths;
+    for (int f = 0; f < 4; ++f) {
+      const auto [a, b, c] = kFaceVertices[f];
+      normals[f] = cross(p[b] - p[a], p[c] - p[a]);
+      lengths[f] = norm(normals[f]);
+    }
+    for (const auto& e : kEdgeVertices) {
+      const double cosine = -dot(normals[e[2]], normals[e[3]]) / (lengths[e[2]] * lengths[e[3]]);
+      if (std::abs(cosine) < kNearEnd && cosine <= largest_cosine && cosine >= smallest_cosine)
+        ++result.dihedral_histogram[bin_of_cosine(cosine)];
+      else
+        add_angle(dihedral(p[e[0]], p[e[1]], p[e[2]], p[e[3]]));
+    }
   }
   void add_angle(double angle) {
     result.smallest_dihedral = std::min(result.smallest_dihedral, angle);
     result.largest_dihedral = std::max(result.largest_dihedral, angle);
+    largest_cosine = std::cos(result.smallest_dihedral * kDegree);
+    smallest_cosine = std::cos(result.largest_dihedral * kDegree);
     ++result.dihedral_histogram[equal_bin(angle, 180, result.dihedral_histogram.size())];
+  }
+  static std::size_t bin_of_cosine(double cosine) {
+    static const auto ends = [] {
+      std::array<double, std::tuple_size_v<decltype(result.dihedral_histogram)>> cosines;
+      for (std::size_t k = 0; k < cosines.size(); ++k)
+        cosines[k] = -std::cos(double(k + 1) * 180 / double(cosines.size()) * kDegree);
+      return cosines;
+    }();
+    const auto bin = std::upper_bound(ends.begin(), ends.end() - 1, -cosine);
+    return std::size_t(bin - ends.begin());
   }
   /// `next` holds tets of larger ids.
   static QualitySum combine(QualitySum a, const QualitySum& next) {

@@ -387,10 +387,18 @@ class Run {
     ask_changed_lengths(mesh_, kept);
   }
 
+  /// Whether nothing was found to do in an input that stands.
+  bool is_as_before() const {
+    return mends_ && !options_.finish && mesh_.points == input_.points && mesh_.tets == input_.tets;
+  }
+
   void measure() {
     report_.surface_distance = distance_.max();
     report_.bulge = measure_bulge(*surface_);
-    report_.after = {count(mesh_), quality_statistics(mesh_), length_statistics(mesh_)};
+    if (!is_as_before())
+      report_.after = {count(mesh_), quality_statistics(mesh_), length_statistics(mesh_)};
+    else
+      report_.after = report_.before;
     report_.verdicts = counts_of(verdicts_);
     report_.stubborn = find_stubborn(mesh_, working_surface(), last_phase(r_).cycle,
                                      std::max(kSoundQuality, options_.min_quality));

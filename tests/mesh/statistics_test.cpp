@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cavea/base/parallel.h"
+#include "cavea/geometry/dihedral.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/mesh/build.h"
 #include "support/meshes.h"
@@ -40,6 +41,35 @@ TEST(QualityStatistics, OfTheCube) {
   EXPECT_NEAR(q.smallest_dihedral, 45, 1e-12);
   EXPECT_NEAR(q.largest_dihedral, 90, 1e-12);
   EXPECT_EQ(total(q.dihedral_histogram), std::int64_t(6 * mesh.tets.size()));
+}
+
+TEST(QualityStatistics, CountAnglesAsTheArcTangentDoes) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    test::Random random(seed);
+    TetMesh mesh = build(test::kuhn_cube(4)).mesh;
+    // From shaken to as good as flat in one direction.
+    const double flat = std::pow(10, -random.between(0, 9));
+    for (Vec3& p : mesh.points) {
+      for (double* x : {&p.x, &p.y, &p.z}) *x += random.between(-0.05, 0.05);
+      p.z *= flat;
+    }
+    QualityStatistics expected;
+    expected.smallest_dihedral = 180;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      const auto p = mesh.corners(TetId(t));
+      for (const auto& e : kEdgeVertices) {
+        const double angle = dihedral(p[e[0]], p[e[1]], p[e[2]], p[e[3]]);
+        expected.smallest_dihedral = std::min(expected.smallest_dihedral, angle);
+        expected.largest_dihedral = std::max(expected.largest_dihedral, angle);
+        ++expected.dihedral_histogram[std::min<std::size_t>(17, std::size_t(angle / 10))];
+      }
+    }
+    const QualityStatistics q = quality_statistics(mesh);
+    EXPECT_EQ(q.dihedral_histogram, expected.dihedral_histogram);
+    EXPECT_DOUBLE_EQ(q.smallest_dihedral, expected.smallest_dihedral);
+    EXPECT_DOUBLE_EQ(q.largest_dihedral, expected.largest_dihedral);
+  }
 }
 
 TEST(QualityStatistics, FindTheWorstTetAndSkipHoles) {
