@@ -1,6 +1,7 @@
 """Runs a remesher on a file and measures it: shared by compare and runs."""
 
 import json
+import math
 import os
 import statistics
 import subprocess
@@ -107,4 +108,16 @@ def write_kuhn_cube(name, n):
                         if path not in even:
                             b, c = c, b
                         file.write(f"{a} {b} {c} {d} 1\n")
+        file.write("End\n")
+
+
+def write_sphere_sizes(name, n):
+    """Sizes at the vertices of that cube: small at a sphere, and larger by a fifth of the way off."""
+    with open(name, "w", encoding="ascii") as file:
+        file.write(f"MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n{(n + 1)**3}\n1 1\n")
+        for k in range(n + 1):
+            for j in range(n + 1):
+                for i in range(n + 1):
+                    off = abs(math.dist((i / n, j / n, k / n), (0.5, 0.5, 0.5)) - 0.3)
+                    file.write(f"{min(0.1, 0.01 + 0.2 * off)!r}\n")
         file.write("End\n")
