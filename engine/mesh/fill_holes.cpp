@@ -2,29 +2,11 @@
 
 #include <algorithm>
 
-#include "cavea/base/parallel.h"
+#include "cavea/base/ids_where.h"
 #include "cavea/mesh/local.h"
 
 namespace cavea {
 namespace {
-
-/// The ids of [0, n) for which is(id), ascending.
-template <class Is>
-std::vector<std::int32_t> ids_where(std::size_t n, Is&& is) {
-  using Ids = std::vector<std::int32_t>;
-  return parallel_reduce(
-      n, Ids{},
-      [&](std::size_t begin, std::size_t end) {
-        Ids ids;
-        for (std::size_t i = begin; i < end; ++i)
-          if (is(std::int32_t(i))) ids.push_back(std::int32_t(i));
-        return ids;
-      },
-      [](Ids all, const Ids& more) {
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
-      });
-}
 
 /// Calls move(from, to) for the last living ones, each into a hole; returns how many stay.
 template <class Alive, class Move>

@@ -6,13 +6,18 @@
 
 namespace cavea {
 
-/// Regular tets of the wanted edge length that have the volume of tet t. \pre its sizes are known
-inline double wanted_tets(const TetMesh& m, TetId t) {
+/// Regular tets of edge length h that have a volume.
+inline double regular_tets(double volume, double h) {
   constexpr double kRegularVolume = 0.11785113;  // of edge 1: 1 / (6 sqrt 2)
+  return volume / (kRegularVolume * h * h * h);
+}
+
+/// The same of the wanted edge length in tet t. \pre its sizes are known
+inline double wanted_tets(const TetMesh& m, TetId t) {
   const auto [a, b, c, d] = m.corners(t);
   double h = 0;
   for (VertexId v : m.tets[t]) h += m.sizes[v] / 4;
-  return std::abs(volume6(a, b, c, d)) / (6 * kRegularVolume * h * h * h);
+  return regular_tets(std::abs(volume6(a, b, c, d)) / 6, h);
 }
 
 /// The same of all tets. \pre no holes

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 
+#include "cavea/base/ids_where.h"
 #include "cavea/base/parallel.h"
 #include "cavea/mesh/compact.h"
 #include "cavea/mesh/fill_holes.h"
@@ -34,23 +35,6 @@ bool is_asked(const TetMesh& m, std::size_t t, const CycleSettings& s) {
   return (flags & tet_flag::kAskLength) ||
          ((flags & tet_flag::kAskSwap) && m.qualities[t] < s.swap_ceiling) ||
          ((flags & tet_flag::kAskMove) && m.qualities[t] <= s.move_ceiling);
-}
-
-/// The tets that are asked something, ascending.
-std::vector<TetId> asked_tets(const TetMesh& m, const CycleSettings& settings) {
-  using Ids = std::vector<TetId>;
-  return parallel_reduce(
-      m.tets.size(), Ids{},
-      [&](std::size_t begin, std::size_t end) {
-        Ids ids;
-        for (std::size_t t = begin; t < end; ++t)
-          if (is_asked(m, t, settings)) ids.push_back(TetId(t));
-        return ids;
-      },
-      [](Ids all, const Ids& more) {
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
-      });
 }
 
 template <class Id>
@@ -88,10 +72,7 @@ std::vector<TetId> with_layers_of_many(const TetMesh& m, const std::vector<TetId
       for (const VertexId v : m.tets[t]) active[t] |= near[v];
     });
   }
-  std::vector<TetId> ids;
-  for (std::size_t t = 0; t < active.size(); ++t)
-    if (active[t]) ids.push_back(TetId(t));
-  return ids;
+  return ids_where(active.size(), [&](TetId t) { return active[t] != 0; });
 }
 
 /// Where less than this share of the mesh is asked, or is holes, it is worth not to touch the rest.
@@ -99,7 +80,8 @@ constexpr std::size_t kFew = 64;
 
 /// The tets that are asked something and those around, ascending.
 std::vector<TetId> active_tets(const TetMesh& m, const CycleSettings& settings) {
-  std::vector<TetId> asked = asked_tets(m, settings);
+  std::vector<TetId> asked =
+      ids_where(m.tets.size(), [&](TetId t) { return is_asked(m, std::size_t(t), settings); });
   return kFew * asked.size() < m.tets.size() ? with_layers_of_few(m, std::move(asked))
                                              : with_layers_of_many(m, asked);
 }

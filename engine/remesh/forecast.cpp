@@ -11,6 +11,7 @@
 #include "cavea/base/ids.h"
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/predicates.h"
+#include "cavea/mesh/wanted_tets.h"
 
 namespace cavea {
 namespace {
@@ -33,10 +34,7 @@ constexpr double kFewTets = 1;
 /// Eight halvings of all edges: pieces of a 256th of the tet's edges, where sizes jump.
 constexpr int kMostBisections = 24;
 
-double tets_in(double volume, double size) {
-  constexpr double kRegularVolume = 0.11785113;  // of edge 1: 1 / (6 sqrt 2)
-  return kTetsPerRegular * volume / (kRegularVolume * size * size * size);
-}
+double tets_in(double volume, double size) { return kTetsPerRegular * regular_tets(volume, size); }
 
 /// A piece of a tet, with the wanted sizes at its corners.
 struct Piece {

@@ -14,12 +14,6 @@
 namespace cavea::test {
 namespace {
 
-std::vector<double> values_of(const TetMesh& mesh, const Function& f) {
-  std::vector<double> values;
-  for (const Vec3& p : mesh.points) values.push_back(f(p));
-  return values;
-}
-
 /// Volume where the P1 function is negative, by the known formula of a tet cut by a plane.
 double exact_volume_below(const TetMesh& mesh, const std::vector<double>& values) {
   double sum = 0;

@@ -16,6 +16,13 @@ namespace cavea::test {
 
 using Function = std::function<double(const Vec3&)>;
 
+/// At the mesh's vertices.
+inline std::vector<double> values_of(const TetMesh& mesh, const Function& f) {
+  std::vector<double> values;
+  for (const Vec3& p : mesh.points) values.push_back(f(p));
+  return values;
+}
+
 inline double sphere(const Vec3& p) { return norm(p - Vec3{0.5, 0.5, 0.5}) - 0.3; }
 
 /// A sum of four waves.

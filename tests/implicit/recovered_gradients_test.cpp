@@ -11,12 +11,6 @@
 namespace cavea::test {
 namespace {
 
-std::vector<double> values_of(const TetMesh& mesh, const Function& f) {
-  std::vector<double> values;
-  for (const Vec3& p : mesh.points) values.push_back(f(p));
-  return values;
-}
-
 bool is_inside(const Vec3& p) {
   return std::min({p.x, p.y, p.z}) > 0.01 && std::max({p.x, p.y, p.z}) < 0.99;
 }
