@@ -124,7 +124,7 @@ class Run {
     report_.before.counts = count(mesh_);
     report_.before.quality = quality_statistics(mesh_);
     take_surface();
-    for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
+    ask_all(mesh_);
     sizes_vary_ = !r_.uniform() || budget_.given() || r_.freeze.surface ||
                   (r_.hgradreq && !required_sizes(mesh_).empty());
     resize();
@@ -210,7 +210,7 @@ class Run {
   std::int64_t seed() {
     const std::int64_t seeds = seed_interior(mesh_, law(), verdicts_);
     if (sizes_vary_ && seeds > 0) resize();
-    for (std::uint8_t& flags : mesh_.tet_flags) flags |= tet_flag::kAskAll;
+    ask_all(mesh_);
     trust_good_tets(mesh_);
     return seeds;
   }

@@ -114,6 +114,10 @@ bool few_are_poor(const TetMesh& mesh) {
   return double(count_poor(mesh)) <= kFew * double(mesh.tets.size());
 }
 
+void ask_all(TetMesh& mesh) {
+  for (std::uint8_t& flags : mesh.tet_flags) flags |= tet_flag::kAskAll;
+}
+
 void ask_nothing(TetMesh& mesh) {
   parallel_for(mesh.tets.size(), [&](std::size_t t) { mesh.tet_flags[t] &= tet_flag::kRequired; });
 }

@@ -32,6 +32,9 @@ std::int64_t count_poor(const TetMesh& mesh);
 /// Whether so few are poor that they may be mended one by one.
 bool few_are_poor(const TetMesh& mesh);
 
+/// All tets are asked everything.
+void ask_all(TetMesh& mesh);
+
 /// No tet is asked any more.
 void ask_nothing(TetMesh& mesh);
 bool is_nothing_asked(const TetMesh& mesh);
