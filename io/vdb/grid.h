@@ -10,6 +10,8 @@
 
 namespace cavea {
 
+struct GridSource;
+
 /// Which grid of a file, and which of its level sets.
 struct GridChoice {
   std::string name;  ///< empty: the only grid there is
@@ -45,8 +47,7 @@ class Grid {
   const std::vector<OrientedPoint>& zeros() const;
 
  private:
-  struct Source;
-  std::unique_ptr<const Source> source_;
+  std::unique_ptr<const GridSource> source_;
 };
 
 }  // namespace cavea

@@ -1,5 +1,3 @@
-#include "cavea/vdb/sample_grids.h"
-
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
@@ -11,9 +9,10 @@
 
 #include "cavea/base/error.h"
 #include "cavea/base/parallel.h"
+#include "cavea/vdb/backend.h"
 #include "cavea/vdb/open_file.h"
 
-namespace cavea {
+namespace cavea::openvdb_module {
 namespace {
 
 using openvdb::Coord;
@@ -151,4 +150,4 @@ void write_surface_grid(const std::filesystem::path& file, const SurfaceTriangle
         settings);
 }
 
-}  // namespace cavea
+}  // namespace cavea::openvdb_module
