@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -52,5 +53,24 @@ class Buckets {
   std::vector<std::uint32_t> ends_;
   std::vector<std::uint32_t> values_;
 };
+
+/// Each value of a bucket once, rising: the bucket's beginning. Its end is left in disorder.
+inline std::span<std::uint32_t> rising_once(std::span<std::uint32_t> values) {
+  // Most buckets repeat few values many times, so that looking for each among those is sooner than
+  // sorting them all; a vertex of thousands of edges has too many for that.
+  constexpr std::size_t kMany = 128;
+  std::size_t different = 0;
+  if (values.size() > kMany) {
+    std::ranges::sort(values);
+    different = std::size_t(std::unique(values.begin(), values.end()) - values.begin());
+  } else {
+    for (const std::uint32_t value : values) {
+      const auto last = values.begin() + std::ptrdiff_t(different);
+      if (std::find(values.begin(), last, value) == last) values[different++] = value;
+    }
+    std::ranges::sort(values.first(different));
+  }
+  return values.first(different);
+}
 
 }  // namespace cavea

@@ -22,12 +22,10 @@ std::vector<float> mean_lengths(const TetMesh& mesh, EdgesOf&& edges_of) {
   });
   std::vector<float> means(mesh.points.size(), 0);
   parallel_for(means.size(), [&](std::size_t v) {
-    std::span<std::uint32_t> others = ends.of(v);
-    std::sort(others.begin(), others.end());
-    const auto last = std::unique(others.begin(), others.end());
+    const auto others = rising_once(ends.of(v));
     double sum = 0;
-    for (auto w = others.begin(); w != last; ++w) sum += distance(mesh.points[v], mesh.points[*w]);
-    if (!others.empty()) means[v] = float(sum / double(last - others.begin()));
+    for (const std::uint32_t w : others) sum += distance(mesh.points[v], mesh.points[w]);
+    if (!others.empty()) means[v] = float(sum / double(others.size()));
   });
   return means;
 }

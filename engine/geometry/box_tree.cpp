@@ -50,4 +50,11 @@ void BoxTree::set_boxes(std::span<const Box> boxes) {
   }
 }
 
+std::vector<std::int32_t> BoxTree::slots() const {
+  std::vector<std::int32_t> slots(order_.size());
+  parallel_for(slots.size(),
+               [&](std::size_t slot) { slots[std::size_t(order_[slot])] = std::int32_t(slot); });
+  return slots;
+}
+
 }  // namespace cavea

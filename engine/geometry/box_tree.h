@@ -20,6 +20,8 @@ class BoxTree {
 
   /// The boxes' numbers in the order of the tree's slots: boxes of a leaf are neighbours.
   const std::vector<std::int32_t>& order() const { return order_; }
+  /// The slots of the boxes: the inverse of order().
+  std::vector<std::int32_t> slots() const;
 
   /// Calls visit(slot) for the boxes that may hold something nearer to p than sqrt(bound2), near
   /// ones first; visit lowers bound2 as it finds something.

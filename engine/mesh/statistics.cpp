@@ -183,13 +183,9 @@ LengthStatistics length_statistics(const TetMesh& mesh) {
       edges.keys(), LengthSum{},
       [&](std::size_t begin, std::size_t end) {
         LengthSum here;
-        for (std::size_t a = begin; a < end; ++a) {
-          const auto ends = edges.of(a);
-          std::sort(ends.begin(), ends.end());
-          const auto last = std::unique(ends.begin(), ends.end());
-          for (auto b = ends.begin(); b != last; ++b)
-            here.add_edge(mesh, VertexId(a), static_cast<VertexId>(*b));
-        }
+        for (std::size_t a = begin; a < end; ++a)
+          for (const std::uint32_t b : rising_once(edges.of(a)))
+            here.add_edge(mesh, VertexId(a), static_cast<VertexId>(b));
         return here;
       },
       LengthSum::combine);

@@ -22,11 +22,9 @@ SplitEdges::SplitEdges(const TetMesh& mesh, const SplitTest& split) : surface_(m
   Buckets edges = all_edges(mesh);
   offsets_.assign(mesh.points.size() + 1, 0);
   parallel_for(mesh.points.size(), [&](std::size_t a) {
-    const auto ends = edges.of(a);
-    std::ranges::sort(ends);
-    const auto last = std::unique(ends.begin(), ends.end());
+    const auto ends = rising_once(edges.of(a));
     // The ends of the edges to be split come to stand first.
-    const auto chosen = std::stable_partition(ends.begin(), last, [&](std::uint32_t b) {
+    const auto chosen = std::stable_partition(ends.begin(), ends.end(), [&](std::uint32_t b) {
       return split(with_triangle(mesh, VertexId(a), VertexId(b)));
     });
     offsets_[a] = static_cast<std::int32_t>(chosen - ends.begin());

@@ -143,6 +143,7 @@ std::vector<FarSample> beyond(const std::vector<Sampled>& samples, double most, 
 struct OutputSurface {
   std::vector<TriangleId> ids;
   std::vector<Corners> corners;
+  std::vector<std::int32_t> facets;  ///< as a corner's anchor says: of this model, or of another
 
   OutputSurface() = default;
   explicit OutputSurface(const TetMesh& mesh) {
@@ -151,6 +152,8 @@ struct OutputSurface {
       if (!s.alive()) continue;
       ids.push_back(TriangleId(t));
       corners.push_back({mesh.points[s.v[0]], mesh.points[s.v[1]], mesh.points[s.v[2]]});
+      facets.push_back(kNone);
+      for (const VertexId v : s.v) facets.back() = std::max(facets.back(), mesh.anchors[v].facet);
     }
   }
 };
@@ -179,7 +182,7 @@ void sample_output(const OutputSurface& out, const SurfaceModel& model, const Pa
       out.corners, sampling, least_hausd_of(model), true,
       [&](std::size_t t, double u, double v) { return on_flat(out.corners[t], u, v); },
       [&](std::size_t t) {
-        return [&, t, last = NearestOnModel{}](const Vec3& x, double small) mutable {
+        return [&, t, last = tree.hint_at(out.facets[t])](const Vec3& x, double small) mutable {
           last = tree.nearest(x, last, small);
           const double hausd = last.facet == kNone ? 1 : model.hausd(last.facet);
           return Measured{std::sqrt(last.place.distance2), hausd, std::int32_t(t)};
@@ -192,6 +195,10 @@ void sample_model(const OutputSurface& out, const SurfaceModel& model,
                   std::span<const Corners> facets, const DistanceSampling& sampling,
                   std::vector<Sampled>& samples) {
   const FacetTree tree(out.corners);
+  std::vector<std::int32_t> near(facets.size(), kNone);
+  for (std::size_t t = 0; t < out.facets.size(); ++t)
+    if (const std::int32_t f = out.facets[t]; f >= 0 && std::size_t(f) < near.size())
+      near[std::size_t(f)] = std::int32_t(t);
   sample_all(
       facets, sampling, least_hausd_of(model), false,
       [&](std::size_t f, double u, double v) {
@@ -199,7 +206,7 @@ void sample_model(const OutputSurface& out, const SurfaceModel& model,
       },
       [&](std::size_t f) {
         const double hausd = model.hausd(std::int32_t(f));
-        return [&tree, hausd, last = NearestFacet{}](const Vec3& x, double small) mutable {
+        return [&tree, hausd, last = tree.hint_at(near[f])](const Vec3& x, double small) mutable {
           last = tree.nearest_from(x, last, small);
           return Measured{std::sqrt(last.distance2), hausd, last.facet};
         };
@@ -266,24 +273,36 @@ Box reach_of(const BezierTriangle& patch, double farthest) {
 double measure_bulge(const SurfaceModel& model) {
   // A cubic patch is smooth: its highest place is missed by little between so many samples.
   constexpr int kBulgeIntervals = 6;
+  constexpr std::size_t kBatch = 1024;  // after which those that cannot be higher are left out
   const std::vector<Corners> facets = facets_of(model);
+  std::vector<std::pair<double, std::size_t>> highest_first(facets.size());
+  parallel_for(facets.size(), [&](std::size_t f) {
+    highest_first[f] = {-bulge_bound(model.patch_of_facet(std::int32_t(f))), f};
+  });
+  parallel_sort(highest_first.begin(), highest_first.end());
   const FacetTree tree(facets);
   std::vector<double> bulge2(facets.size(), 0);
-  parallel_for(
-      facets.size(),
-      [&](std::size_t f) {
-        const Corners& own = facets[f];
-        for_each_sample(kBulgeIntervals, [&](double u, double v) {
-          const Vec3 x = model.patch_of_facet(std::int32_t(f)).at(u, v);
-          // The other facets matter only to a sample that would raise the largest distance.
-          double d2 = closest_on_triangle(x, own[0], own[1], own[2]).distance2;
-          if (d2 <= bulge2[f]) return;
-          if (const NearestFacet r = tree.nearest(x, d2); r.facet != kNone) d2 = r.distance2;
-          bulge2[f] = std::max(bulge2[f], d2);
-        });
-      },
-      kGrain);
-  return facets.empty() ? 0 : std::sqrt(*std::max_element(bulge2.begin(), bulge2.end()));
+  const auto sample = [&](std::size_t f) {
+    const Corners& own = facets[f];
+    for_each_sample(kBulgeIntervals, [&](double u, double v) {
+      const Vec3 x = model.patch_of_facet(std::int32_t(f)).at(u, v);
+      // The other facets matter only to a sample that would raise the largest distance.
+      double d2 = closest_on_triangle(x, own[0], own[1], own[2]).distance2;
+      if (d2 <= bulge2[f]) return;
+      if (const NearestFacet r = tree.nearest(x, d2); r.facet != kNone) d2 = r.distance2;
+      bulge2[f] = std::max(bulge2[f], d2);
+    });
+  };
+  double bulge = 0;
+  for (std::size_t begin = 0; begin < facets.size(); begin += kBatch) {
+    if (-highest_first[begin].first <= bulge) break;
+    const std::size_t count = std::min(kBatch, facets.size() - begin);
+    parallel_for(
+        count, [&](std::size_t i) { sample(highest_first[begin + i].second); }, kGrain);
+    for (std::size_t i = 0; i < count; ++i)
+      bulge = std::max(bulge, std::sqrt(bulge2[highest_first[begin + i].second]));
+  }
+  return bulge;
 }
 
 struct DistanceMeter::Memory {

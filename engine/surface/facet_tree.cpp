@@ -17,7 +17,7 @@ std::vector<Box> boxes_of(std::span<const Corners> triangles) {
 }  // namespace
 
 FacetTree::FacetTree(std::span<const Corners> triangles)
-    : tree_(boxes_of(triangles)), triangles_(triangles.size()) {
+    : tree_(boxes_of(triangles)), triangles_(triangles.size()), slots_(tree_.slots()) {
   parallel_for(triangles.size(),
                [&](std::size_t slot) { triangles_[slot] = triangles[tree_.order()[slot]]; });
 }
@@ -42,6 +42,12 @@ NearestFacet FacetTree::nearest(const Vec3& p, double bound2) const {
   improve(p, best);
   if (best.facet == kNone) best = {};
   return best;
+}
+
+NearestFacet FacetTree::hint_at(std::int32_t triangle) const {
+  NearestFacet hint;
+  if (triangle != kNone) hint.slot = slots_[std::size_t(triangle)];
+  return hint;
 }
 
 NearestFacet FacetTree::nearest_from(const Vec3& p, const NearestFacet& hint, double small) const {

@@ -35,12 +35,16 @@ class FacetTree {
   /// \param small the hint's triangle will do if it is so near
   NearestFacet nearest_from(const Vec3& p, const NearestFacet& hint, double small = -1) const;
 
+  /// A hint where the place is thought to be on or near the triangle; none where that is kNone.
+  NearestFacet hint_at(std::int32_t triangle) const;
+
  private:
   NearestFacet on(const Vec3& p, std::size_t slot) const;
   void improve(const Vec3& p, NearestFacet& best) const;
 
   BoxTree tree_;
   std::vector<Corners> triangles_;  ///< in the order of the slots
+  std::vector<std::int32_t> slots_;
 };
 
 }  // namespace cavea

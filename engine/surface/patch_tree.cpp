@@ -34,9 +34,9 @@ std::vector<Box> boxes_of(const SurfaceModel& model) {
   return boxes;
 }
 
-/// The largest distance of a control point from the flat facet: of any point of the patch, since
-/// the distance from a convex set is a convex function.
-double bulge_of(const BezierTriangle& p) {
+}  // namespace
+
+double bulge_bound(const BezierTriangle& p) {
   double worst = 0;
   for_each_control_point(p, [&](const Vec3& c) {
     worst =
@@ -44,8 +44,6 @@ double bulge_of(const BezierTriangle& p) {
   });
   return std::sqrt(worst);
 }
-
-}  // namespace
 
 namespace {
 
@@ -83,10 +81,16 @@ NearestOnPatch closest_on_patch(const Vec3& p, const BezierTriangle& patch, doub
 }
 
 PatchTree::PatchTree(const SurfaceModel& model)
-    : model_(model), tree_(boxes_of(model)), leaves_(model.facets()) {
+    : model_(model), tree_(boxes_of(model)), leaves_(model.facets()), slots_(tree_.slots()) {
   parallel_for(leaves_.size(), [&](std::size_t slot) {
-    leaves_[slot] = {patch(slot).corner, bulge_of(patch(slot))};
+    leaves_[slot] = {patch(slot).corner, bulge_bound(patch(slot))};
   });
+}
+
+NearestOnModel PatchTree::hint_at(std::int32_t facet) const {
+  NearestOnModel hint;
+  if (facet >= 0 && std::size_t(facet) < slots_.size()) hint.slot = slots_[std::size_t(facet)];
+  return hint;
 }
 
 NearestOnModel PatchTree::nearest(const Vec3& p, const NearestOnModel& hint, double small) const {

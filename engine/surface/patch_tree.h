@@ -21,6 +21,10 @@ struct NearestOnPatch {
 /// distance2 is that of a point of the patch, so never less than the patch's true distance.
 NearestOnPatch closest_on_patch(const Vec3& p, const BezierTriangle& patch, double u, double v);
 
+/// No place of the patch is farther from its flat facet: the largest distance of a control point,
+/// since a patch is in their hull and the distance from a convex set is a convex function.
+double bulge_bound(const BezierTriangle& patch);
+
 /// The place of a SurfaceModel nearest to a point.
 struct NearestOnModel {
   NearestOnPatch place;
@@ -39,6 +43,10 @@ class PatchTree {
   /// too. \param small any place of the hint's patch that is so near will do
   NearestOnModel nearest(const Vec3& p, const NearestOnModel& hint = {}, double small = -1) const;
 
+  /// A hint where the place is thought to be on or near the facet; none where there is no such
+  /// facet.
+  NearestOnModel hint_at(std::int32_t facet) const;
+
  private:
   struct Leaf {
     std::array<Vec3, 3> corner;
@@ -51,6 +59,7 @@ class PatchTree {
   const SurfaceModel& model_;
   BoxTree tree_;
   std::vector<Leaf> leaves_;  ///< in the order of the slots
+  std::vector<std::int32_t> slots_;
 };
 
 }  // namespace cavea

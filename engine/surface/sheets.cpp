@@ -38,23 +38,27 @@ bool Sheets::apart(std::size_t s, std::size_t t) const {
   return true;
 }
 
-void Sheets::improve(std::size_t t, const Vec3& place, const Facing& facing, Hit& hit) const {
-  const Vec3 way = facing.side * normals_[t];
-  tree_.visit_near(place, hit.distance2, [&](std::size_t slot) {
-    const auto s = std::size_t(tree_.order()[slot]);
-    if (dot(normals_[s], normals_[t]) > facing.normals_cosine || !apart(s, t)) return;
-    const auto& [a, b, c] = triangles_[s];
-    const ClosestOnTriangle near = closest_on_triangle(place, a, b, c);
-    if (!(near.distance2 < hit.distance2)) return;
-    const Vec3 to = a + near.u * (b - a) + near.v * (c - a) - place;
-    if (dot(to, way) >= facing.cone_cosine * norm(to)) hit = {std::int32_t(s), near.distance2};
-  });
+bool Sheets::may_face(std::size_t t, std::size_t s, const Facing& facing) const {
+  return dot(normals_[s], normals_[t]) <= facing.normals_cosine && apart(s, t);
+}
+
+void Sheets::improve(std::size_t t, const Vec3& place, std::size_t s, const Facing& facing,
+                     Hit& hit) const {
+  const auto& [a, b, c] = triangles_[s];
+  const ClosestOnTriangle near = closest_on_triangle(place, a, b, c);
+  if (!(near.distance2 < hit.distance2)) return;
+  const Vec3 to = a + near.u * (b - a) + near.v * (c - a) - place;
+  if (dot(to, facing.side * normals_[t]) >= facing.cone_cosine * norm(to))
+    hit = {std::int32_t(s), near.distance2};
 }
 
 double Sheets::opposite(std::size_t t, const Vec3& place, const Facing& facing,
                         double reach) const {
   Hit hit{-1, reach * reach};
-  improve(t, place, facing, hit);
+  tree_.visit_near(place, hit.distance2, [&](std::size_t slot) {
+    const auto s = std::size_t(tree_.order()[slot]);
+    if (may_face(t, s, facing)) improve(t, place, s, facing, hit);
+  });
   return hit.triangle < 0 ? kNothing : std::sqrt(hit.distance2);
 }
 
@@ -67,8 +71,15 @@ std::vector<double> Sheets::all_opposite(const Facing& facing,
         const double r = reach(t);
         if (!(r > 0)) return;
         const auto& [a, b, c] = triangles_[t];
+        Box box{a, a};
+        box.add(b), box.add(c);
+        box = {box.low - Vec3{r, r, r}, box.high + Vec3{r, r, r}};
         hits[t].distance2 = r * r;
-        for (const Vec3& x : {a, b, c, (a + b + c) / 3}) improve(t, x, facing, hits[t]);
+        tree_.visit_overlapping(box, [&](std::size_t slot) {
+          const auto s = std::size_t(tree_.order()[slot]);
+          if (!may_face(t, s, facing)) return;
+          for (const Vec3& x : {a, b, c, (a + b + c) / 3}) improve(t, x, s, facing, hits[t]);
+        });
       },
       kGrain);
   std::vector<double> nearest(hits.size(), kNothing);

@@ -41,7 +41,11 @@ class Sheets {
     std::int32_t triangle = -1;
     double distance2 = kNothing;
   };
-  void improve(std::size_t t, const Vec3& place, const Facing& facing, Hit& hit) const;
+  /// Whether the normals of the two and their vertices allow that s is opposite t.
+  bool may_face(std::size_t t, std::size_t s, const Facing& facing) const;
+  /// Sees whether s is nearer to a place on t than what it has hit.
+  void improve(std::size_t t, const Vec3& place, std::size_t s, const Facing& facing,
+               Hit& hit) const;
   bool apart(std::size_t s, std::size_t t) const;
 
   std::vector<Corners> triangles_;
