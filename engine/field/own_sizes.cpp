@@ -40,8 +40,12 @@ bool has_required_edges(const TetMesh& m) {
 
 }  // namespace
 
+std::vector<float> mean_edge_lengths(const TetMesh& mesh) {
+  return mean_lengths(mesh, [&](TetId t, auto&& f) { for_each_edge(mesh, t, f); });
+}
+
 SizeField own_sizes(TetMesh mesh) {
-  mesh.sizes = mean_lengths(mesh, [&](TetId t, auto&& f) { for_each_edge(mesh, t, f); });
+  mesh.sizes = mean_edge_lengths(mesh);
   return [map = std::make_shared<MeshSizeField>(mesh)](const Vec3& p) { return (*map)(p); };
 }
 

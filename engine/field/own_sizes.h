@@ -1,8 +1,13 @@
 #pragma once
+#include <vector>
+
 #include "cavea/field/size_field.h"
 #include "cavea/mesh/tet_mesh.h"
 
 namespace cavea {
+
+/// At each vertex the mean length of its edges; 0 where there are none.
+std::vector<float> mean_edge_lengths(const TetMesh& mesh);
 
 /// The sizes that a mesh has: at each vertex the mean length of its edges, between them as
 /// MeshSizeField says. A snapshot.

@@ -38,6 +38,10 @@ struct LengthStatistics {
   double conforming_percent() const {
     return edges ? 100.0 * double(conforming) / double(edges) : 100;
   }
+  /// Beyond sqrt2, which is the end of a bin.
+  double too_long_percent() const {
+    return edges ? 100.0 * double(histogram[6] + histogram[7] + histogram[8]) / double(edges) : 0;
+  }
 };
 
 struct Counts {

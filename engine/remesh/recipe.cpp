@@ -12,6 +12,9 @@ constexpr double kOperatorShare = 0.8;
 /// Surface edges of at least this many hmin are split where they do not fit the surface.
 constexpr double kFittedEdge = 1.5;
 
+/// The paper's rough bounds of lengths (section 4.3, step 4).
+constexpr double kRoughLong = 2.0, kRoughShort = 0.4;
+
 CycleSettings base(const ResolvedOptions& o) {
   CycleSettings s;
   s.limits.tolerance_share = kOperatorShare;
@@ -24,12 +27,11 @@ CycleSettings base(const ResolvedOptions& o) {
   return s;
 }
 
-/// Lengths outside the paper's rough bounds only (section 4.3, step 4), with loss of quality
-/// allowed.
+/// Lengths outside the rough bounds only, with loss of quality allowed.
 Phase rough(const ResolvedOptions& o) {
   Phase p{"rough", base(o), 2, 0.05, 8};
-  p.cycle.limits.long_edge = 2.0;
-  p.cycle.limits.short_edge = 0.4;
+  p.cycle.limits.long_edge = kRoughLong;
+  p.cycle.limits.short_edge = kRoughShort;
   p.cycle.limits.quality_ratio = 0.3;
   p.cycle.limits.quality_floor = 0.1;
   p.cycle.sweeps = 4;
@@ -88,6 +90,13 @@ std::vector<Phase> mending_recipe(const ResolvedOptions& o) {
   // What is asked is little of the whole, and is to be mended to the end.
   for (Phase* p : {&adapt, &finish}) p->settled = p->cycle.settled = 0;
   return {adapt, finish};
+}
+
+std::vector<Phase> standing_recipe(const ResolvedOptions& o) {
+  std::vector<Phase> phases = mending_recipe(o);
+  for (Phase& p : phases)
+    p.cycle.limits.long_edge = kRoughLong, p.cycle.limits.short_edge = kRoughShort;
+  return phases;
 }
 
 std::vector<Phase> poor_recipe(const ResolvedOptions& o) {

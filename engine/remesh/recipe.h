@@ -38,6 +38,9 @@ Phase last_phase(const ResolvedOptions& options);
 /// The phases that mend an almost finished mesh in the places that are asked.
 std::vector<Phase> mending_recipe(const ResolvedOptions& options);
 
+/// The same for a mesh that stands: only lengths that no result has are changed.
+std::vector<Phase> standing_recipe(const ResolvedOptions& options);
+
 /// The same for poor tets that the limits of those phases hold fast: rough ones come first.
 std::vector<Phase> poor_recipe(const ResolvedOptions& options);
 

@@ -80,7 +80,7 @@ class Run {
     timed("analysis", [&] { analyse(); });
     mends_ = ask_if_it_stands();
     const bool filled = !mends_ && fill();
-    for (const Phase& phase : mends_ ? mending_recipe(r_) : recipe(r_, filled))
+    for (const Phase& phase : mends_ ? standing_recipe(r_) : recipe(r_, filled))
       timed(phase.name, [&] { run_phase(phase); });
     mend_poor();
     finish();
@@ -239,13 +239,37 @@ class Run {
   bool ask_if_it_stands() {
     may_mend_ = !r_.freeze.any_operator() && budget_.met(mesh_) &&
                 !(options_.surface && measure_distance().worse().worst > 1);
-    const bool few = few_are_poor(mesh_);
-    const bool good = is_as_good_as_results(report_.before, r_.uniform(), options_.min_conform);
-    if (!may_mend_ || (effort_ == Effort::kWhereNeeded && !(few && good))) return false;
+    if (!may_mend_ || !may_keep()) return false;
     ask_nothing(mesh_);
-    if (few) ask_poor(mesh_);
+    if (few_are_poor(mesh_)) ask_poor(mesh_);
     if (!options_.surface) trust_facets();
     return true;
+  }
+
+  /// A result's surface is not quite that of its input, and asks for other sizes: a mesh that is
+  /// kept has its own, if the caller has not said which.
+  bool may_keep() {
+    const bool surely = effort_ == Effort::kMend || is_good();
+    const bool own = !sizes_are_given(options_, bool(field_));
+    if (!own || !(surely || is_near())) return surely;
+    const LengthStatistics in_wanted = report_.before.lengths;
+    std::vector<float> sizes = own_sizes_within(mesh_, r_.largest);
+    mesh_.sizes.swap(sizes);
+    report_.before.lengths = length_statistics(mesh_);
+    if (surely || is_good()) return true;
+    mesh_.sizes.swap(sizes);
+    report_.before.lengths = in_wanted;
+    return false;
+  }
+
+  bool is_good() const {
+    return few_are_poor(mesh_) &&
+           is_as_good_as_results(report_.before, r_.uniform(), options_.min_conform);
+  }
+
+  bool is_near() const {
+    constexpr double kLeastFiner = 0.8;  // what is finer yet asks for the next scale
+    return finer_ >= kLeastFiner && is_nearly_result(report_.before, options_.min_conform);
   }
 
   /// Phases end when little of the whole changes: what is poor then may be little of it, and is
@@ -501,12 +525,15 @@ Result run_with_room(const TetMesh& input, const SizeField& field, const Options
   Result first = run_once(input, field, options, 1);
   if (room(first) == Room::kEnough) return first;
   std::vector<double> to_try = {0.8, 0.64, 0.512};  // the last makes about eight times the tets
+  // A little room is found by one run and missed by the next: what the input has decides, but where
+  // it is much finer, the caller wants other sizes.
+  const bool little = room(first) == Room::kLittle;
+  if (little) to_try.resize(1);
   const auto rest = std::ranges::stable_partition(to_try, [&](double finer) {
     return has_the_quality_of_results(first.report.before.quality, false) &&
            Run(input, field, options, Effort::kWhereNeeded, finer).stands();
   });
-  // A little room is found by one run and missed by the next: what the input has decides.
-  if (room(first) == Room::kLittle) to_try.erase(rest.begin(), rest.end());
+  if (little) to_try.erase(rest.begin(), rest.end());
   std::vector<PhaseTime> tried;
   for (const double finer : to_try) {
     Result result = run_once(input, field, options, finer);

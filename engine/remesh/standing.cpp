@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "cavea/base/parallel.h"
+#include "cavea/field/own_sizes.h"
 #include "cavea/geometry/metric.h"
 
 namespace cavea {
@@ -93,15 +94,37 @@ bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const O
          after.lengths.conforming_percent() < before.lengths.conforming_percent() + kConformGain;
 }
 
+bool sizes_are_given(const Options& options, bool has_field) {
+  return has_field || options.hsiz || options.optim || options.max_tets || !options.local.empty() ||
+         !options.size_regions.empty() || options.freeze.any_operator() || options.freeze.surface;
+}
+
+bool is_nearly_result(const MeshSummary& now, double conform) {
+  constexpr double kNear = 0.9;  // of the wanted mean length: the whole is not too fine
+  return has_the_quality_of_results(now.quality, false) && now.lengths.mean >= kNear &&
+         now.lengths.too_long_percent() <= 100 - conform;
+}
+
+std::vector<float> own_sizes_within(const TetMesh& mesh, double largest) {
+  // Of the wanted sizes: what is finer yet is no chance. What is coarser is so where the surface of
+  // the mesh bends, which stays as it is.
+  constexpr float kFinest = float(kTooShort);
+  constexpr double kCoarsest = 1.25;  // of the largest size
+  std::vector<float> sizes = mean_edge_lengths(mesh);
+  parallel_for(sizes.size(), [&](std::size_t v) {
+    const float finest = kFinest * mesh.sizes[v];
+    sizes[v] = std::max(finest, std::min(sizes[v], float(kCoarsest * largest)));
+  });
+  return sizes;
+}
+
 Room room_in(const MeshSummary& after, const Options& options, bool has_field) {
   // All bodies that are nowhere narrow reach the first; with the second no other run misses it.
   constexpr double kRoomyMean = 0.78, kSurelyRoomyMean = 0.82;
   constexpr double kRoomyConform = 90;         // the usual target
   constexpr std::int64_t kCoarseMesh = 50000;  // larger ones should not grow eightfold unasked
-  const bool sizes_are_given = has_field || options.hsiz || options.optim || options.max_tets ||
-                               options.freeze.any_operator() || options.freeze.surface;
   const double mean = after.quality.mean, conform = after.lengths.conforming_percent();
-  if (sizes_are_given || after.counts.tets >= kCoarseMesh) return Room::kEnough;
+  if (sizes_are_given(options, has_field) || after.counts.tets >= kCoarseMesh) return Room::kEnough;
   if (mean < kRoomyMean || conform < kRoomyConform) return Room::kMissing;
   return mean < kSurelyRoomyMean ? Room::kLittle : Room::kEnough;
 }

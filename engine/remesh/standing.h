@@ -19,6 +19,16 @@ bool is_as_good_as_results(const MeshSummary& now, bool uniform, double conform)
 /// a target of the options that they missed.
 bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const Options& options);
 
+/// Whether the caller says what the sizes are, and not the surface alone.
+bool sizes_are_given(const Options& options, bool has_field);
+
+/// Whether the mesh may be a result whose surface asks for other sizes: of the quality of results
+/// where sizes vary, and not too coarse but for as many edges as need not conform.
+bool is_nearly_result(const MeshSummary& now, double conform);
+
+/// The sizes that a mesh has: at least 0.3 of those wanted, and at most 1.25 of `largest`.
+std::vector<float> own_sizes_within(const TetMesh& mesh, double largest);
+
 /// How much room the shape leaves for elements of the sizes asked for: in strips one of them wide
 /// all are of a poor quality, or few have the lengths wanted.
 enum class Room { kMissing, kLittle, kEnough };

@@ -52,6 +52,13 @@ MeshData thin_plate() {
   return data;
 }
 
+/// A surface that is rough at the size of its triangles, as those of scans are.
+MeshData rough_ball() {
+  return mapped(ball(10), [](const Vec3& p) {
+    return (1 + 0.01 * std::sin(31 * p.x) * std::sin(29 * p.y + 1) * std::sin(37 * p.z + 2)) * p;
+  });
+}
+
 struct Body {
   std::string name;
   MeshData data;
@@ -67,6 +74,7 @@ std::vector<Body> bodies() {
           {"octants", octants(4), uniform(0.1)},
           {"ball", ball(8), with_tolerance(0.004)},
           {"uniform_ball", ball(6), uniform(0.15)},
+          {"rough_ball", rough_ball(), {}},
           {"cylinder", cylinder(8), with_tolerance(0.01)},
           {"faceted_cylinder", cylinder(8), faceted},
           {"frame", frame(), uniform(0.06)},
@@ -136,6 +144,23 @@ TEST(Standing, OtherSizesAreFollowedAllTheSame) {
     const Report report = remesh(mesh, {}, uniform(size));
     expect_sound(mesh);
     expect_good(report);
+  }
+}
+
+TEST(Standing, AnotherToleranceIsFollowedAllTheSame) {
+  const TetMesh start = built(remeshed(rough_ball(), with_tolerance(0.004)));
+  for (const double hausd : {0.001, 0.016}) {
+    TetMesh mesh = start;
+    const Report report = remesh(mesh, {}, with_tolerance(hausd));
+    expect_sound(mesh);
+    // Sizes are as the square root of the tolerance.
+    const double finer = double(report.after.counts.triangles) / double(start.triangles.size());
+    if (hausd < 0.004)
+      EXPECT_GT(finer, 1.5);
+    else
+      EXPECT_LT(finer, 1 / 1.5);
+    EXPECT_GE(report.after.lengths.conforming_percent(), 90);
+    EXPECT_LE(report.surface_distance, report.hausd);
   }
 }
 
