@@ -241,7 +241,7 @@ class Run {
                 !(options_.surface && measure_distance().worse().worst > 1);
     if (!may_mend_ || !may_keep()) return false;
     ask_nothing(mesh_);
-    if (few_are_poor(mesh_)) ask_poor(mesh_);
+    if (!none_is_poor(report_.before) && few_are_poor(mesh_)) ask_poor(mesh_);
     if (!options_.surface) trust_facets();
     return true;
   }
@@ -263,8 +263,8 @@ class Run {
   }
 
   bool is_good() const {
-    return few_are_poor(mesh_) &&
-           is_as_good_as_results(report_.before, r_.uniform(), options_.min_conform);
+    return is_as_good_as_results(report_.before, r_.uniform(), options_.min_conform) &&
+           (none_is_poor(report_.before) || few_are_poor(mesh_));
   }
 
   bool is_near() const {
@@ -275,6 +275,7 @@ class Run {
   /// Phases end when little of the whole changes: what is poor then may be little of it, and is
   /// asked for itself as long as that helps.
   void mend_poor() {
+    if (mends_ && none_is_poor(report_.before)) return;  // and nothing was asked
     std::int64_t poor = count_poor(mesh_);
     for (int k = 0; k < kMends && poor > 0; ++k) {
       ask_nothing(mesh_);
@@ -293,6 +294,7 @@ class Run {
   void trust_facets() {
     constexpr double kTrusted = 0.9;  // so that what lies between samples is within, too
     r_.max_bulge = std::min(r_.max_bulge, kTrusted * r_.hausd);
+    if (measure_bulge(*surface_) <= r_.max_bulge) return;
     take_model(surface_, 1);
     meter_.reset();
     if (loose_) loosen();

@@ -133,6 +133,11 @@ std::int64_t count_poor(const TetMesh& mesh) {
   return count_tets(mesh, [&](TetId t) { return is_poor(mesh, t); });
 }
 
+bool none_is_poor(const MeshSummary& now) {
+  return now.quality.worst >= kPoorQuality && now.lengths.shortest >= kTooShort &&
+         now.lengths.longest <= kTooLong;
+}
+
 bool few_are_poor(const TetMesh& mesh) {
   return double(count_poor(mesh)) <= kFew * double(mesh.tets.size());
 }

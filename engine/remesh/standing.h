@@ -39,6 +39,9 @@ Room room_in(const MeshSummary& after, const Options& options, bool has_field);
 /// How many tets are poor: far from what is wanted, in quality or in length. Needs the sizes.
 std::int64_t count_poor(const TetMesh& mesh);
 
+/// Whether there is none, as the statistics of the mesh tell.
+bool none_is_poor(const MeshSummary& now);
+
 /// Whether so few are poor that they may be mended one by one.
 bool few_are_poor(const TetMesh& mesh);
 

@@ -38,12 +38,13 @@ struct Measured {
   std::int32_t triangle = kNone;  ///< of the output, that it is from or to
 };
 
-/// What the samples of one triangle say.
+/// What the samples of one triangle say, or bounds above it.
 struct Sampled {
   double max = -1, worst = -1, hausd = 0, sum = 0, area = 0;
   Vec3 where;
   std::int32_t triangle = kNone;
   int count = 0;
+  bool exact = false;
 
   void add(const Vec3& x, const Measured& m) {
     max = std::max(max, m.distance);
@@ -79,45 +80,105 @@ void climb(const std::array<double, 2>& worst_at, double step, Add&& add) {
   }
 }
 
-/// Samples those triangles that have no samples yet: distance_from() makes a function of the sample
-/// x for each triangle in turn, so that a search may begin where it ended for the sample before.
-/// Never where another triangle's ended: which one that is depends on the threads. Its second
-/// argument is a distance so small that it need not be exact: it would not raise any maximum.
-/// \param may_stop where the first samples are all near: not where the triangle is far larger than
-/// those of the other surface
+/// Samples the triangles of one surface. distance_from() makes a function of the sample x for each
+/// triangle in turn, so that a search may begin where it ended for the sample before. Never where
+/// another triangle's ended: which one that is depends on the threads. Its second argument is a
+/// distance so small that it need not be exact, but may be that from where the search begins.
 template <class At, class DistanceFrom>
-void sample_all(std::span<const Corners> triangles, const DistanceSampling& sampling,
-                double least_hausd, bool may_stop, At&& at, DistanceFrom&& distance_from,
-                std::vector<Sampled>& samples) {
-  parallel_for(
-      triangles.size(),
-      [&](std::size_t t) {
-        const Corners& k = triangles[t];
-        Sampled& s = samples[t];
-        if (s.count > 0) return;
-        auto distance = distance_from(t);
-        std::array<double, 2> worst_at{};
-        auto add = [&](double u, double v) {
-          const double before = s.worst;
-          const double small = sampling.enough > 0 ? std::min(s.max, s.worst * least_hausd) : -1;
-          const Vec3 x = at(t, u, v);
-          s.add(x, distance(x, small));
-          if (s.worst > before) worst_at = {u, v};
-        };
-        s = {};
-        const int n = intervals(k, sampling.step);
-        if (n > kMinIntervals && sampling.enough > 0) for_each_sample(kMinIntervals, add);
-        if (s.count == 0 || !may_stop || s.worst > sampling.enough) for_each_sample(n, add);
-        if (s.worst > kNearLimit) climb(worst_at, 0.5 / n, add);
-        s.area = norm(cross(k[1] - k[0], k[2] - k[0])) / 2;
-      },
-      kGrain);
-}
+class Sampler {
+ public:
+  /// \param may_stop where the first samples are all near: not where the triangle is far larger
+  /// than those of the other surface
+  Sampler(std::span<const Corners> triangles, const DistanceSampling& sampling, double least_hausd,
+          bool may_stop, At at, DistanceFrom distance_from)
+      : triangles_(triangles),
+        sampling_(sampling),
+        least_hausd_(least_hausd),
+        may_stop_(may_stop),
+        at_(std::move(at)),
+        distance_from_(std::move(distance_from)) {}
+
+  /// Bounds first, which are near; then what is as far as others is looked at, the farthest first,
+  /// until no bound is above the largest distance. Those that have samples keep them.
+  void sample_all(std::vector<Sampled>& samples) const {
+    const bool all_exact = sampling_.enough == 0;
+    parallel_for(
+        samples.size(),
+        [&](std::size_t t) {
+          if (samples[t].count == 0) samples[t] = sample(t, all_exact);
+        },
+        kGrain);
+    if (!all_exact) make_exact_what_matters(samples);
+  }
+
+ private:
+  /// Of all samples or with bounds of them, which are no less.
+  Sampled sample(std::size_t t, bool exact) const {
+    const Corners& k = triangles_[t];
+    Sampled s;
+    auto distance = distance_from_(t);
+    std::array<double, 2> worst_at{};
+    auto small_enough = [&] {
+      if (!exact) return sampling_.enough * least_hausd_;
+      return sampling_.enough > 0 ? std::min(s.max, s.worst * least_hausd_) : -1;
+    };
+    auto add = [&](double u, double v) {
+      const double before = s.worst;
+      const Vec3 x = at_(t, u, v);
+      s.add(x, distance(x, small_enough()));
+      if (s.worst > before) worst_at = {u, v};
+    };
+    const int n = intervals(k, sampling_.step);
+    if (n > kMinIntervals && sampling_.enough > 0) for_each_sample(kMinIntervals, add);
+    if (s.count == 0 || !may_stop_ || s.worst > sampling_.enough) for_each_sample(n, add);
+    if (exact && s.worst > kNearLimit) climb(worst_at, 0.5 / n, add);
+    s.area = norm(cross(k[1] - k[0], k[2] - k[0])) / 2;
+    s.exact = exact;
+    return s;
+  }
+
+  void make_exact_what_matters(std::vector<Sampled>& samples) const {
+    constexpr std::size_t kBatch = 1024;  // after which those that cannot be farther are left out
+    const double always = std::min(kNearLimit, sampling_.most);
+    double max = -1, worst = -1;
+    std::vector<std::size_t> open;
+    for (std::size_t t = 0; t < samples.size(); ++t)
+      if (const Sampled& s = samples[t]; !s.exact)
+        open.push_back(t);
+      else
+        max = std::max(max, s.max), worst = std::max(worst, s.worst);
+    auto is_farther = [&](std::size_t a, std::size_t b) {
+      return std::tie(samples[b].worst, a) < std::tie(samples[a].worst, b);
+    };
+    for (;;) {
+      std::erase_if(open, [&](std::size_t t) {
+        const Sampled& s = samples[t];
+        return s.exact || (s.max <= max && s.worst <= worst && s.worst <= always);
+      });
+      if (open.empty()) return;
+      const auto end = open.begin() + std::ptrdiff_t(std::min(kBatch, open.size()));
+      std::partial_sort(open.begin(), end, open.end(), is_farther);
+      const std::size_t count = std::size_t(end - open.begin());
+      parallel_for(
+          count, [&](std::size_t i) { samples[open[i]] = sample(open[i], true); }, kGrain);
+      for (auto t = open.begin(); t != end; ++t)
+        max = std::max(max, samples[*t].max), worst = std::max(worst, samples[*t].worst);
+    }
+  }
+
+  std::span<const Corners> triangles_;
+  const DistanceSampling& sampling_;
+  double least_hausd_;
+  bool may_stop_;
+  At at_;
+  DistanceFrom distance_from_;
+};
 
 OneSidedDistance fold(const std::vector<Sampled>& samples, const DistanceSampling& sampling) {
   const bool all_exact = sampling.enough == 0;
   Sampled total;
   for (const Sampled& s : samples) {
+    if (!s.exact) continue;  // and nearer than others
     total.max = std::max(total.max, s.max);
     if (s.worst > total.worst) total.worst = s.worst, total.hausd = s.hausd, total.where = s.where;
     total.sum += s.area * (s.sum / s.count);
@@ -158,6 +219,12 @@ struct OutputSurface {
   }
 };
 
+/// Triangles that are a facet of the model are nearest to that one.
+void prefer_own_facets(std::span<const Corners> facets, OutputSurface& out) {
+  for (std::size_t t = 0; t < std::min(facets.size(), out.corners.size()); ++t)
+    if (out.corners[t] == facets[t]) out.facets[t] = std::int32_t(t);
+}
+
 std::vector<Corners> facets_of(const SurfaceModel& model) {
   std::vector<Corners> facets(model.facets());
   parallel_for(facets.size(),
@@ -178,7 +245,7 @@ double least_hausd_of(const SurfaceModel& model) {
 
 void sample_output(const OutputSurface& out, const SurfaceModel& model, const PatchTree& tree,
                    const DistanceSampling& sampling, std::vector<Sampled>& samples) {
-  sample_all(
+  const Sampler sampler(
       out.corners, sampling, least_hausd_of(model), true,
       [&](std::size_t t, double u, double v) { return on_flat(out.corners[t], u, v); },
       [&](std::size_t t) {
@@ -187,8 +254,8 @@ void sample_output(const OutputSurface& out, const SurfaceModel& model, const Pa
           const double hausd = last.facet == kNone ? 1 : model.hausd(last.facet);
           return Measured{std::sqrt(last.place.distance2), hausd, std::int32_t(t)};
         };
-      },
-      samples);
+      });
+  sampler.sample_all(samples);
 }
 
 void sample_model(const OutputSurface& out, const SurfaceModel& model,
@@ -199,7 +266,7 @@ void sample_model(const OutputSurface& out, const SurfaceModel& model,
   for (std::size_t t = 0; t < out.facets.size(); ++t)
     if (const std::int32_t f = out.facets[t]; f >= 0 && std::size_t(f) < near.size())
       near[std::size_t(f)] = std::int32_t(t);
-  sample_all(
+  const Sampler sampler(
       facets, sampling, least_hausd_of(model), false,
       [&](std::size_t f, double u, double v) {
         return model.patch_of_facet(std::int32_t(f)).at(u, v);
@@ -210,8 +277,8 @@ void sample_model(const OutputSurface& out, const SurfaceModel& model,
           last = tree.nearest_from(x, last, small);
           return Measured{std::sqrt(last.distance2), hausd, last.facet};
         };
-      },
-      samples);
+      });
+  sampler.sample_all(samples);
 }
 
 bool is_before(const Corners& a, const Corners& b) {
@@ -344,7 +411,9 @@ DistanceMeter::~DistanceMeter() = default;
 
 SurfaceDistance DistanceMeter::measure(const TetMesh& mesh) {
   Memory& m = *memory_;
-  m.forget_what_changed(OutputSurface(mesh));
+  OutputSurface now(mesh);
+  prefer_own_facets(m.facets, now);
+  m.forget_what_changed(std::move(now));
   sample_output(m.out, m.model, m.tree, m.sampling, m.of_out);
   sample_model(m.out, m.model, m.facets, m.sampling, m.of_model);
   SurfaceDistance result;

@@ -68,11 +68,10 @@ class DistanceMeter {
 /// triangle would have more than about 300 samples; its corners, edge midpoints and centroid are
 /// always among them. Each sample is measured against all of the other surface, whatever its
 /// patches. Infinite from a surface that is empty; 0 of one that is. The same bits at any number of
-/// threads. \param step greater than 0 \param enough where
-/// corners, edge midpoints and centroid are all within so many hausd, no more samples are taken; if
-/// not 0, samples that raise no maximum are not measured exactly
-/// \param most triangles and facets with samples beyond so many
-/// hausd are listed
+/// threads. \param step greater than 0 \param enough where corners, edge midpoints and centroid are
+/// all within so many hausd, no more samples are taken; if not 0, what is nearer than the farthest
+/// is not measured exactly, and there is no mean
+/// \param most triangles and facets with samples beyond so many hausd are listed
 SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel& model,
                                          double step,
                                          double most = std::numeric_limits<double>::infinity(),

@@ -193,6 +193,20 @@ TEST(SurfaceDistance, SamplesMoreOnlyWhereItIsNotNear) {
   EXPECT_GE(few.max(), 0.8 * all.max());
 }
 
+TEST(SurfaceDistance, BoundsLeaveOutOnlyWhatIsNearer) {
+  const auto ball = modelled_ball(14);
+  const TetMesh other = modelled_ball(17).mesh;  // more triangles than are made exact at once
+  const SurfaceDistance all = measure_surface_distance(other, ball.model, kStep);
+  const double none = std::numeric_limits<double>::infinity();
+  for (const double share : {0.05, 0.3, 0.6}) {
+    SCOPED_TRACE(share);
+    const double enough = share * all.worse().worst;
+    const SurfaceDistance some = measure_surface_distance(other, ball.model, kStep, none, enough);
+    EXPECT_EQ(some.out_to_model.max, all.out_to_model.max);
+    EXPECT_EQ(some.model_to_out.max, all.model_to_out.max);
+  }
+}
+
 void expect_same(const OneSidedDistance& a, const OneSidedDistance& b) {
   EXPECT_DOUBLE_EQ(a.max, b.max);
   EXPECT_DOUBLE_EQ(a.mean, b.mean);

@@ -1,10 +1,13 @@
 #include "command_remesh.h"
 
+#include <tbb/global_control.h>
+
 #include <cstdio>
 #include <functional>
 
 #include "cavea/base/error.h"
 #include "cavea/base/memory.h"
+#include "cavea/base/parallel.h"
 #include "cavea/base/timer.h"
 #include "cavea/implicit/project.h"
 #include "cavea/io/formats.h"
@@ -132,6 +135,10 @@ int run_remesh(const RemeshArguments& arguments) {
   const Options options = to_options(arguments);
   check_names(arguments);
   const Interrupt interrupt;
+  // Reading and writing keep to --threads, too.
+  using Control = tbb::global_control;
+  const Control threads(Control::max_allowed_parallelism,
+                        std::size_t(options.threads > 0 ? options.threads : default_threads()));
   try {
     const RunReport run = remesh_file(arguments, options, interrupt);
     std::fputs(missed_text(run.report).c_str(), stderr);
