@@ -50,8 +50,8 @@ constexpr double kBudgetMargin = 0.1;
 constexpr double kSoundQuality = 0.3;
 
 /// A mesh is only mended in places if all but a few of its tets are as good as those of results, or
-/// in any case.
-enum class Effort { kWhereNeeded, kMend };
+/// in any case; or not even that.
+enum class Effort { kWhereNeeded, kMend, kLeave };
 
 std::string to_text(const Vec3& p) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
@@ -100,6 +100,12 @@ class Run {
   /// Whether the input was as good as the result: it is then better left as it is.
   bool in_vain() const {
     return may_mend_ && !mends_ && gained_nothing(report_.before, report_.after, options_);
+  }
+
+  /// Whether poor tets were asked, and stayed so: others in their places are no better.
+  bool mended_in_vain() const {
+    return poor_ > 0 && double(count_poor(mesh_)) > kMended * double(poor_) &&
+           gained_nothing(report_.before, report_.after, options_);
   }
 
   TetMesh mesh_;
@@ -241,7 +247,10 @@ class Run {
                 !(options_.surface && measure_distance().worse().worst > 1);
     if (!may_mend_ || !may_keep()) return false;
     ask_nothing(mesh_);
-    if (!none_is_poor(report_.before) && few_are_poor(mesh_)) ask_poor(mesh_);
+    if (effort_ != Effort::kLeave && !none_is_poor(report_.before) && few_are_poor(mesh_)) {
+      poor_ = count_poor(mesh_);
+      ask_poor(mesh_);
+    }
     if (!options_.surface) trust_facets();
     return true;
   }
@@ -249,7 +258,7 @@ class Run {
   /// A result's surface is not quite that of its input, and asks for other sizes: a mesh that is
   /// kept has its own, if the caller has not said which.
   bool may_keep() {
-    const bool surely = effort_ == Effort::kMend || is_good();
+    const bool surely = effort_ != Effort::kWhereNeeded || is_good();
     const bool own = !sizes_are_given(options_, bool(field_));
     if (!own || !(surely || is_near())) return surely;
     const LengthStatistics in_wanted = report_.before.lengths;
@@ -275,7 +284,7 @@ class Run {
   /// Phases end when little of the whole changes: what is poor then may be little of it, and is
   /// asked for itself as long as that helps.
   void mend_poor() {
-    if (mends_ && none_is_poor(report_.before)) return;  // and nothing was asked
+    if (mends_ && poor_ == 0) return;  // nothing was asked
     std::int64_t poor = count_poor(mesh_);
     for (int k = 0; k < kMends && poor > 0; ++k) {
       ask_nothing(mesh_);
@@ -479,6 +488,7 @@ class Run {
   bool may_mend_ =
       false;            ///< the input has the surface and number of tets wanted, operators are free
   bool mends_ = false;  ///< only poor tets are asked
+  std::int64_t poor_ = 0;  ///< so many
   std::vector<Crossing> crossings_;
   ResolvedOptions r_;
   bool sizes_vary_ = true;  ///< over space, so that new vertices want theirs set anew
@@ -501,18 +511,20 @@ struct Result {
   }
 };
 
-/// A run, and where the input turns out to be as good as its result another one that only mends it.
+/// A run, and where the input turns out to be as good as its result another one that only mends it,
+/// or leaves it if that does not help.
 Result run_once(const TetMesh& input, const SizeField& field, const Options& options,
                 double finer) {
   std::optional<Run> run;
-  run.emplace(input, field, options, Effort::kWhereNeeded, finer);
-  (*run)();
   std::vector<PhaseTime> in_vain;
-  if (run->in_vain()) {
-    in_vain = std::move(run->report_.phases);
-    run.emplace(input, field, options, Effort::kMend, finer);
+  auto run_with = [&](Effort effort) {
+    if (run) std::ranges::move(run->report_.phases, std::back_inserter(in_vain));
+    run.emplace(input, field, options, effort, finer);
     (*run)();
-  }
+  };
+  run_with(Effort::kWhereNeeded);
+  if (run->in_vain()) run_with(Effort::kMend);
+  if (run->mended_in_vain()) run_with(Effort::kLeave);
   Result result{std::move(run->mesh_), std::move(run->report_)};
   result.add_before(in_vain);
   return result;

@@ -59,6 +59,13 @@ MeshData rough_ball() {
   });
 }
 
+/// Two sides meet almost, below six degrees: tets there are poor, whatever they are.
+MeshData sharp_wedge() {
+  return mapped(kuhn_cube(6), [](const Vec3& p) {
+    return Vec3{p.x, p.y * (0.005 + 0.1 * p.x), p.z};
+  });
+}
+
 struct Body {
   std::string name;
   MeshData data;
@@ -75,6 +82,7 @@ std::vector<Body> bodies() {
           {"ball", ball(8), with_tolerance(0.004)},
           {"uniform_ball", ball(6), uniform(0.15)},
           {"rough_ball", rough_ball(), {}},
+          {"sharp_wedge", sharp_wedge(), uniform(0.03)},
           {"cylinder", cylinder(8), with_tolerance(0.01)},
           {"faceted_cylinder", cylinder(8), faceted},
           {"frame", frame(), uniform(0.06)},
