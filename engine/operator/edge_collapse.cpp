@@ -187,10 +187,14 @@ bool makes_long_edge(const OperatorContext& c, double longest) {
 }  // namespace
 
 Verdict edge_collapse(OperatorContext& c, bool quality_gain, Cavity& cavity) {
+  gather_ball(c.mesh, c.shell.p, c.marker, c.ball);
+  return edge_collapse_of_ball(c, quality_gain, cavity);
+}
+
+Verdict edge_collapse_of_ball(OperatorContext& c, bool quality_gain, Cavity& cavity) {
   cavity.clear();
   const Shell& s = c.shell;
   if (const Verdict v = may_merge(c); v != Verdict::kAccept) return v;
-  gather_ball(c.mesh, s.p, c.marker, c.ball);
   if (c.ball.cut) return Verdict::kFrozen;
   if (makes_long_edge(c, (quality_gain ? kRelaxedLong : kToleratedLong) * c.limits.long_edge))
     return Verdict::kBadLength;

@@ -9,4 +9,8 @@ namespace cavea {
 /// raise the worst quality, and may leave long edges as long as that holds.
 Verdict edge_collapse(OperatorContext& context, bool quality_gain, Cavity& cavity);
 
+/// The same for a vertex p whose ball is gathered: several q are tried for one ball. \pre
+/// context.ball is that of shell.p; the shell of an edge inside needs only p and q.
+Verdict edge_collapse_of_ball(OperatorContext& context, bool quality_gain, Cavity& cavity);
+
 }  // namespace cavea

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "cavea/operator/edge_collapse.h"
 #include "cavea/operator/edge_split.h"
 #include "cavea/pass/passes.h"
 
@@ -80,19 +79,6 @@ std::vector<EdgeTask> split_tasks(const PartState& s) {
   return tasks;
 }
 
-std::vector<EdgeTask> collapse_tasks(const PartState& s) {
-  const TetMesh& m = s.context.mesh;
-  std::vector<EdgeTask> tasks;
-  for_each_asked_edge(m, [&](TetId t, int i, int j) {
-    const VertexId a = std::min(m.tets[t][i], m.tets[t][j]),
-                   b = std::max(m.tets[t][i], m.tets[t][j]);
-    if (!s.context.length_exceeds(a, b, s.context.limits.short_edge))
-      tasks.push_back({float(-s.context.length(a, b)), a, b, t});
-  });
-  sort_tasks(tasks);
-  return tasks;
-}
-
 /// Gathers the shell of a task's edge from vertex p to q; false if its tet has it no longer.
 bool find_edge(PartState& s, const EdgeTask& task, VertexId p, VertexId q) {
   const TetMesh& m = s.context.mesh;
@@ -119,21 +105,6 @@ std::int64_t for_each_task(const std::vector<EdgeTask>& tasks, F&& work) {
   return done;
 }
 
-/// Collapses p onto q, or else says why not.
-Outcome collapse(PartState& s, const EdgeTask& task, VertexId p, VertexId q) {
-  if (!s.mesh().tet_alive(task.tet)) return Outcome::kGone;
-  Verdict v = Verdict::kFrozen;
-  // Most of what is asked is near interfaces: no need to look at more of the mesh.
-  if (!(s.context.tags(p) & tag::kFrozen)) {
-    if (!find_edge(s, task, p, q)) return Outcome::kGone;
-    v = edge_collapse(s.context, false, s.cavity);
-  }
-  if (v == Verdict::kFrozen) s.mesh().tet_flags[task.tet] |= tet_flag::kAskLater;
-  if (!s.count(Operator::kEdgeCollapse, v)) return Outcome::kRefused;
-  s.commit();
-  return Outcome::kDone;
-}
-
 }  // namespace
 
 std::int64_t split_pass(PartState& s) {
@@ -149,15 +120,6 @@ std::int64_t split_pass(PartState& s) {
     if (!s.count(Operator::kEdgeSplit, v)) return Outcome::kRefused;
     s.commit();
     return Outcome::kDone;
-  });
-}
-
-std::int64_t collapse_pass(PartState& s) {
-  const std::vector<EdgeTask> tasks = collapse_tasks(s);
-  for (std::uint8_t& flags : s.mesh().tet_flags) flags &= std::uint8_t(~tet_flag::kAskLength);
-  return for_each_task(tasks, [&](const EdgeTask& task) {
-    const Outcome outcome = collapse(s, task, task.a, task.b);
-    return outcome == Outcome::kRefused ? collapse(s, task, task.b, task.a) : outcome;
   });
 }
 

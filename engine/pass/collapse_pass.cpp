@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <limits>
+
+#include "cavea/operator/edge_collapse.h"
+#include "cavea/pass/passes.h"
+
+namespace cavea {
+namespace {
+
+/// Lets vertices vanish along edges that are too short. Each vertex is asked once, for all of its
+/// short edges, the shortest first: so its ball is gathered once.
+class CollapsePass {
+ public:
+  explicit CollapsePass(PartState& s)
+      : s_(s), m_(s.mesh()), shortest_(m_.points.size(), {kNotAsked, kNone}) {}
+
+  std::int64_t run() {
+    find_short_edges();
+    for (std::uint8_t& flags : m_.tet_flags) flags &= std::uint8_t(~tet_flag::kAskLength);
+    std::int64_t done = 0;
+    for (const VertexId v : vertices_in_order()) done += ask(v);
+    return done;
+  }
+
+ private:
+  static constexpr float kNotAsked = std::numeric_limits<float>::infinity();
+
+  struct ShortEdge {
+    float length;
+    TetId tet;  ///< one that has it
+  };
+
+  /// An edge from the vertex that is asked.
+  struct Spoke {
+    double length;
+    VertexId to;
+    TetId tet;
+  };
+
+  void find_short_edges() {
+    for (std::size_t t = 0; t < m_.tets.size(); ++t) {
+      if (!(m_.tet_flags[t] & tet_flag::kAskLength) || !m_.tet_alive(TetId(t))) continue;
+      for (const auto& e : kEdgeVertices) {
+        const VertexId a = m_.tets[t][e[0]], b = m_.tets[t][e[1]];
+        if (!is_short(a, b)) continue;
+        const auto length = float(s_.context.length(std::min(a, b), std::max(a, b)));
+        for (const VertexId v : {a, b})
+          if (length < shortest_[v].length) shortest_[v] = {length, TetId(t)};
+      }
+    }
+  }
+
+  /// Those with the shortest edges first.
+  std::vector<VertexId> vertices_in_order() const {
+    std::vector<VertexId> order;
+    for (std::size_t v = 0; v < shortest_.size(); ++v)
+      if (shortest_[v].length < kNotAsked) order.push_back(VertexId(v));
+    std::ranges::sort(order, [&](VertexId a, VertexId b) {
+      return std::pair(shortest_[a].length, a) < std::pair(shortest_[b].length, b);
+    });
+    return order;
+  }
+
+  bool is_short(VertexId a, VertexId b) const {
+    return !s_.context.length_exceeds(a, b, s_.context.limits.short_edge);
+  }
+
+  /// Whether v has vanished.
+  bool ask(VertexId v) {
+    if (!m_.vertex_alive(v)) return false;
+    const TetId tet = shortest_[v].tet;
+    if (m_.vertex_tags[v] & tag::kFrozen) {
+      if (m_.tet_alive(tet)) m_.tet_flags[tet] |= tet_flag::kAskLater;
+      s_.count(Operator::kEdgeCollapse, Verdict::kFrozen);
+      return false;
+    }
+    gather_ball(m_, v, s_.context.marker, s_.context.ball);
+    find_short_spokes();
+    for (const Spoke& spoke : spokes_)
+      if (collapse(spoke)) return true;
+    return false;
+  }
+
+  void find_short_spokes() {
+    const Ball& ball = s_.context.ball;
+    spokes_.clear();
+    seen_.begin(m_.points.size());
+    seen_.mark(ball.v);
+    for (const TetId t : ball.tets)
+      for (const VertexId to : m_.tets[t])
+        if (seen_.mark(to) && is_short(ball.v, to))
+          spokes_.push_back({s_.context.length(ball.v, to), to, t});
+    std::ranges::sort(spokes_, [](const Spoke& a, const Spoke& b) {
+      return std::pair(a.length, a.to) < std::pair(b.length, b.to);
+    });
+  }
+
+  bool collapse(const Spoke& spoke) {
+    gather_edge(spoke);
+    const Verdict v = edge_collapse_of_ball(s_.context, false, s_.cavity);
+    if (v == Verdict::kFrozen) m_.tet_flags[spoke.tet] |= tet_flag::kAskLater;
+    if (!s_.count(Operator::kEdgeCollapse, v)) return false;
+    s_.commit();
+    return true;
+  }
+
+  /// Inside, nobody asks for the ring.
+  void gather_edge(const Spoke& spoke) {
+    const VertexId v = s_.context.ball.v;
+    Shell& shell = s_.context.shell;
+    if (m_.vertex_tags[v] & tag::kSurface) {
+      gather_shell(m_, spoke.tet, m_.local_index(spoke.tet, v), m_.local_index(spoke.tet, spoke.to),
+                   shell);
+    } else {
+      shell.p = v, shell.q = spoke.to;
+    }
+  }
+
+  PartState& s_;
+  TetMesh& m_;
+  std::vector<ShortEdge> shortest_;  ///< of each vertex, among the tets that are asked
+  std::vector<Spoke> spokes_;
+  TetMarker seen_;
+};
+
+}  // namespace
+
+std::int64_t collapse_pass(PartState& s) { return CollapsePass(s).run(); }
+
+}  // namespace cavea
