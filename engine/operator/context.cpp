@@ -9,14 +9,16 @@ SurfaceFit fit_triangle(const OperatorContext& context, const std::array<Vec3, 3
   constexpr SurfaceFit kNoFit{-1, std::numeric_limits<double>::infinity()};
   const Vec3 n = normalized(cross(t[1] - t[0], t[2] - t[0]));
   if (norm2(n) == 0) return kNoFit;
-  const SurfacePoint at = context.surface.place((t[0] + t[1] + t[2]) / 3, patch, hints);
+  // What is within the tolerance fits, however near it is.
+  const double enough = context.limits.tolerance_share;
+  const SurfacePoint at = context.surface.place((t[0] + t[1] + t[2]) / 3, patch, hints, enough);
   if (at.anchor.facet == kNone) return kNoFit;
   SurfaceFit fit{dot(n, context.surface.normal(at.anchor, patch)),
                  at.distance2 / context.tolerance2(at.anchor)};
   for (int k = 0; k < 3; ++k) {
     if (!(sides >> k & 1)) continue;
     const Vec3 middle = (t[std::size_t(k)] + t[std::size_t(k + 1) % 3]) / 2;
-    const SurfacePoint p = context.surface.place(middle, patch, {&at.anchor, 1});
+    const SurfacePoint p = context.surface.place(middle, patch, {&at.anchor, 1}, enough);
     fit.deviation2 = std::max(fit.deviation2, p.distance2 / context.tolerance2(p.anchor));
   }
   return fit;

@@ -114,17 +114,23 @@ void make_triangles(const OperatorContext& c, const std::vector<TriangleId>& fan
 Verdict check_surface(const OperatorContext& c, const Cavity& cavity) {
   const Shell& s = c.shell;
   const Vec3 p = c.point(s.p);
-  double nearest2 = std::numeric_limits<double>::infinity();
+  auto corners = [&](const Triangle& t) {
+    return std::array<Vec3, 3>{c.point(t.v[0]), c.point(t.v[1]), c.point(t.v[2])};
+  };
+  if (!(c.tags(s.p) & tag::kOffSurface)) {
+    double nearest2 = std::numeric_limits<double>::infinity();
+    for (const Triangle& t : cavity.triangles) {
+      const std::array<Vec3, 3> x = corners(t);
+      nearest2 = std::min(nearest2, closest_on_triangle(p, x[0], x[1], x[2]).distance2);
+    }
+    if (nearest2 > c.tolerance2(c.mesh.anchors[s.p])) return Verdict::kOffSurface;
+  }
   SurfaceFit fit;
   for (const Triangle& t : cavity.triangles) {
-    const std::array<Vec3, 3> x = {c.point(t.v[0]), c.point(t.v[1]), c.point(t.v[2])};
-    nearest2 = std::min(nearest2, closest_on_triangle(p, x[0], x[1], x[2]).distance2);
     const Anchor hints[4] = {c.mesh.anchors[t.v[0]], c.mesh.anchors[t.v[1]], c.mesh.anchors[t.v[2]],
                              c.mesh.anchors[s.p]};
-    fit.add(fit_triangle(c, x, t.patch, hints));
+    fit.add(fit_triangle(c, corners(t), t.patch, hints));
   }
-  if (nearest2 > c.tolerance2(c.mesh.anchors[s.p]) && !(c.tags(s.p) & tag::kOffSurface))
-    return Verdict::kOffSurface;
   return judge_surface(c, fit, cavity.removed_triangles);
 }
 

@@ -148,10 +148,13 @@ Vec3 surface_target(const OperatorContext& c, VertexId v) {
 /// The same as climb() for a surface vertex: every place tried is on the surface.
 Verdict climb_on_surface(OperatorContext& c, VertexId v, const BallQuality& before, NewVertex& to) {
   constexpr double kFirstStep = 0.15;
+  // The way down to the surface is short, and changes qualities little.
+  constexpr double kHopeless = 0.9;
   double best = before.worst;
   BallQuality after;
   const Vec3 x =
       pattern_search(c.point(v), kFirstStep * to.size, best, [&](const Vec3& y, double limit) {
+        if (!evaluate(c, y, kHopeless * limit, after)) return limit;
         const SurfacePoint at = on_surface(c, v, y);
         if (at.anchor.facet == kNone || !evaluate(c, at.point, limit, after)) return limit;
         return after.worst;

@@ -35,6 +35,7 @@ class CollapsePass {
     double length;
     VertexId to;
     TetId tet;
+    double worst = 0;  ///< quality of the tets that a collapse along it would make
   };
 
   void find_short_edges() {
@@ -76,6 +77,7 @@ class CollapsePass {
     }
     gather_ball(m_, v, s_.context.marker, s_.context.ball);
     find_short_spokes();
+    if (!(m_.vertex_tags[v] & tag::kSurface)) put_best_first();
     for (const Spoke& spoke : spokes_)
       if (collapse(spoke)) return true;
     return false;
@@ -93,6 +95,31 @@ class CollapsePass {
     std::ranges::sort(spokes_, [](const Spoke& a, const Spoke& b) {
       return std::pair(a.length, a.to) < std::pair(b.length, b.to);
     });
+  }
+
+  /// Inside, where nothing but the new tets decides: so they stay good for long without swaps.
+  void put_best_first() {
+    if (spokes_.size() < 2) return;
+    const Ball& ball = s_.context.ball;
+    Star& star = s_.context.star;
+    star.clear();
+    for (const TetId t : ball.tets) {
+      const auto& k = m_.tets[t];
+      const int* f = kFaceVertices[m_.local_index(t, ball.v)];
+      star.add(m_.points[k[f[0]]], m_.points[k[f[1]]], m_.points[k[f[2]]]);
+    }
+    star.prepare(m_.sizes[ball.v]);
+    for (Spoke& spoke : spokes_) {
+      star.evaluate(m_.points[spoke.to]);
+      spoke.worst = 1;
+      for (std::size_t i = 0; i < star.size(); ++i)
+        if (star.qualities()[i] < spoke.worst && m_.local_index(ball.tets[i], spoke.to) == 4)
+          spoke.worst = star.qualities()[i];
+    }
+    std::ranges::sort(spokes_, [](const Spoke& a, const Spoke& b) {
+      return std::pair(-a.worst, a.to) < std::pair(-b.worst, b.to);
+    });
+    while (spokes_.size() > 1 && spokes_.back().worst < kFlat) spokes_.pop_back();
   }
 
   bool collapse(const Spoke& spoke) {

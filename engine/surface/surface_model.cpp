@@ -13,6 +13,12 @@ namespace {
 /// Fixed-point steps that move a flat projection to the nearest point of the curved patch.
 constexpr int kCurvedSteps = 2;
 
+/// Squared sine of the angle with the normal at which a place is straight below the guess: what is
+/// nearest is then nearer by less than a hundredth.
+constexpr double kStraightBelow = 0.02;
+
+double square(double x) { return x * x; }
+
 }  // namespace
 
 /// The snapshot's corner that an anchor stands on, or none.
@@ -43,22 +49,24 @@ void SurfaceModel::for_each_start(const Anchor& anchor, int patch, F&& f) const 
   if (facet_patch_[anchor.facet] == patch) f(anchor.facet);
 }
 
-SurfaceModel::WalkResult SurfaceModel::walk(const Vec3& guess, std::int32_t start) const {
-  auto on = [&](std::int32_t f) {
-    const auto& k = facets_[f];
-    const ClosestOnTriangle c =
-        closest_on_triangle(guess, points_[k[0]], points_[k[1]], points_[k[2]]);
-    return WalkResult{f, c.u, c.v, c.distance2};
-  };
+/// The nearest point of a flat facet.
+SurfaceModel::WalkResult SurfaceModel::on_facet(const Vec3& guess, std::int32_t f) const {
+  const auto& k = facets_[f];
+  const ClosestOnTriangle c =
+      closest_on_triangle(guess, points_[k[0]], points_[k[1]], points_[k[2]]);
+  return {f, c.u, c.v, c.distance2};
+}
+
+/// From a nearest point of a facet to those of others, as long as they are nearer.
+SurfaceModel::WalkResult SurfaceModel::walk(const Vec3& guess, WalkResult best) const {
   auto inside_patch = [&](std::int32_t f, int k) {
     return facet_curve_[f][k] == kNone ? smooth_neighbors_[f][k] : kNone;
   };
-  WalkResult best = on(start);
   for (int step = 0; step < kMaxWalk; ++step) {
     WalkResult next = best;
     auto consider = [&](std::int32_t f) {
       if (f == kNone) return;
-      const WalkResult r = on(f);
+      const WalkResult r = on_facet(guess, f);
       if (r.distance2 < next.distance2) next = r;
     };
     const double w = 1 - best.u - best.v;
@@ -79,36 +87,49 @@ SurfaceModel::WalkResult SurfaceModel::walk(const Vec3& guess, std::int32_t star
   return best;
 }
 
-SurfacePoint SurfaceModel::place(const Vec3& guess, int patch,
-                                 std::span<const Anchor> hints) const {
+/// The nearest of the facets that the anchors stand on, or none of the patch.
+SurfaceModel::WalkResult SurfaceModel::nearest_start(const Vec3& guess, int patch,
+                                                     std::span<const Anchor> hints) const {
   WalkResult best;
-  best.distance2 = std::numeric_limits<double>::infinity();
+  best.distance2 = kEndless;
   for (const Anchor& hint : hints)
     for_each_start(hint, patch, [&](std::int32_t facet) {
       if (facet == best.facet) return;
-      const WalkResult r = walk(guess, facet);
+      const WalkResult r = on_facet(guess, facet);
       if (r.distance2 < best.distance2) best = r;
     });
-  SurfacePoint result;
-  result.distance2 = best.distance2;
-  if (best.facet == kNone) return result;
+  return best;
+}
+
+SurfacePoint SurfaceModel::place(const Vec3& guess, int patch, std::span<const Anchor> hints,
+                                 double enough) const {
+  const WalkResult start = nearest_start(guess, patch, hints);
+  if (start.facet == kNone) return {{}, {}, kEndless};
+  WalkResult best = walk(guess, start);
+  const double enough2 = square(enough * facet_tolerance_[best.facet]);
+  // Not every walk finds the nearest place.
+  if (distance2(patches_[best.facet].at(best.u, best.v), guess) > enough2)
+    for (const Anchor& hint : hints)
+      for_each_start(hint, patch, [&](std::int32_t facet) {
+        if (facet == start.facet || facet == best.facet) return;
+        const WalkResult r = walk(guess, on_facet(guess, facet));
+        if (r.distance2 < best.distance2) best = r;
+      });
   Vec3 target = guess;
   Vec3 x = patches_[best.facet].at(best.u, best.v);
-  for (int step = 0; step < kCurvedSteps; ++step) {
+  for (int step = 0; step < kCurvedSteps && distance2(x, guess) > enough2; ++step) {
     // Move the flat projection by the tangential part of the error of the curved point.
     const Vec3 n = normalized(patches_[best.facet].normal(best.u, best.v));
-    const Vec3 error = guess - x;
-    target += error - dot(error, n) * n;
-    const WalkResult r = walk(target, best.facet);
+    const Vec3 error = guess - x, aside = error - dot(error, n) * n;
+    if (norm2(aside) <= kStraightBelow * norm2(error)) break;
+    target += aside;
+    const WalkResult r = walk(target, on_facet(target, best.facet));
     const Vec3 y = patches_[r.facet].at(r.u, r.v);
     if (distance2(y, guess) >= distance2(x, guess)) break;
     best = r;
     x = y;
   }
-  result.point = x;
-  result.anchor = {best.facet, float(best.u), float(best.v)};
-  result.distance2 = distance2(x, guess);
-  return result;
+  return {x, {best.facet, float(best.u), float(best.v)}, distance2(x, guess)};
 }
 
 SurfacePoint SurfaceModel::place_on_curve(const Vec3& guess, std::span<const Anchor> hints) const {

@@ -41,8 +41,10 @@ class SurfaceModel {
   SurfaceModel(TetMesh& mesh, const Settings& settings);
 
   /// The point of patch `patch` near `guess`, found by walking from the anchors in `hints`; walks
-  /// stay within the patch. distance2 is infinite when no hint touches the patch.
-  SurfacePoint place(const Vec3& guess, int patch, std::span<const Anchor> hints) const;
+  /// stay within the patch. distance2 is infinite when no hint touches the patch. It is the nearest
+  /// point but for second-order terms, or any that is within `enough` tolerances.
+  SurfacePoint place(const Vec3& guess, int patch, std::span<const Anchor> hints,
+                     double enough = 0) const;
 
   /// The point near `guess` on the feature curve that the anchors lie on, or that starts at one of
   /// them if all are corners. distance2 infinite when there is no curve.
@@ -139,7 +141,9 @@ class SurfaceModel {
   Vec3 normal_on_curve(std::int32_t facet, const Anchor& anchor) const;
   std::int32_t corner_vertex(const Anchor& a) const;
   Anchor anchor_of(std::int32_t v) const;
-  WalkResult walk(const Vec3& guess, std::int32_t start) const;
+  WalkResult on_facet(const Vec3& guess, std::int32_t f) const;
+  WalkResult walk(const Vec3& guess, WalkResult best) const;
+  WalkResult nearest_start(const Vec3& guess, int patch, std::span<const Anchor> hints) const;
   template <class F>
   void for_each_start(const Anchor& anchor, int patch, F&& f) const;
   template <class F>
