@@ -149,7 +149,7 @@ Vec3 surface_target(const OperatorContext& c, VertexId v) {
 Verdict climb_on_surface(OperatorContext& c, VertexId v, const BallQuality& before, NewVertex& to) {
   constexpr double kFirstStep = 0.15;
   // The way down to the surface is short, and changes qualities little.
-  constexpr double kHopeless = 0.9;
+  constexpr double kHopeless = 0.5;
   double best = before.worst;
   BallQuality after;
   const Vec3 x =

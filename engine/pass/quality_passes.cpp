@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "cavea/geometry/dihedral.h"
 #include "cavea/operator/edge_collapse.h"
 #include "cavea/operator/edge_star.h"
 #include "cavea/operator/edge_swap.h"
@@ -16,6 +17,14 @@ constexpr double kShakenFloor = 0.3;
 
 /// Face swaps of better tets succeed less than once in a thousand.
 constexpr double kFaceSwapBelow = 0.5;
+
+/// The edges of a tet by how often their swap succeeds, as ranks of their dihedral angles: of tets
+/// of quality 0.6 to 0.7, 14% at the second largest, 2% at the fourth, 1.5% at the largest and the
+/// third, below 1% at others (counted on three workloads).
+constexpr int kPromise[6] = {1, 3, 0, 2, 4, 5};
+/// Better tets are asked at the first of these edges only.
+constexpr double kAllEdgesBelow = 0.6;
+constexpr int kEdgesOfGoodTet = 2;
 
 /// The quality worklist of one part. Each edge and face is asked once after anything around it has
 /// changed: a tet is stamped when it changes and when it asks, and what an edge's shell asked after
@@ -82,8 +91,12 @@ class QualityQueue {
   }
 
   bool swap(TetId t, double quality) {
-    for (const auto& e : kEdgeVertices)
+    const std::array<int, 6> edges = edges_by_dihedral(m_.corners(t));
+    const int asked = quality < kAllEdgesBelow ? 6 : kEdgesOfGoodTet;
+    for (int k = 0; k < asked; ++k) {
+      const int* e = kEdgeVertices[edges[std::size_t(kPromise[k])]];
       if (swap_edge(t, e[0], e[1])) return true;
+    }
     if (quality < kFaceSwapBelow)
       for (int f = 0; f < 4; ++f)
         if (swap_face(t, f)) return true;

@@ -15,7 +15,7 @@ constexpr int kCurvedSteps = 2;
 
 /// Squared sine of the angle with the normal at which a place is straight below the guess: what is
 /// nearest is then nearer by less than a hundredth.
-constexpr double kStraightBelow = 0.02;
+constexpr double kStraightBelow = 0.0005;
 
 double square(double x) { return x * x; }
 
