@@ -12,6 +12,9 @@ namespace {
 constexpr double kShares[] = {1, 0.5, 0.2};
 /// Balls with a worse tet than this are also tried for its sake alone.
 constexpr double kBadBall = 0.5;
+/// In other balls a target that is nearer than this, in wanted sizes, is not worth a trial: 1% of
+/// those below 0.025 succeed, a tenth of those below 0.05, nine tenths of those beyond 0.25.
+constexpr double kStill = 0.03;
 /// The mean quality of a ball must rise by this much where the worst does not.
 constexpr double kMeanGain = 0.002;
 constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
@@ -167,6 +170,12 @@ Verdict climb_on_surface(OperatorContext& c, VertexId v, const BallQuality& befo
   return check_fan(c, v, to);
 }
 
+/// Whether a vertex is so near its target that its ball would hardly gain.
+bool stands_still(const Vec3& target, const BallQuality& before, const NewVertex& now) {
+  const double near = kStill * now.size;
+  return before.worst >= kBadBall && distance2(target, now.point) < near * near;
+}
+
 Verdict relocate_on_surface(OperatorContext& c, VertexId v, NewVertex& to) {
   c.fan.clear();
   for_each_triangle(c.mesh, c.ball, [&](TriangleId t) { c.fan.push_back(t); });
@@ -178,6 +187,7 @@ Verdict relocate_on_surface(OperatorContext& c, VertexId v, NewVertex& to) {
   const BallQuality before = now(c);
   const bool off = c.tags(v) & tag::kOffSurface;
   const Vec3 from = c.point(v), target = off ? from : surface_target(c, v);
+  if (!off && stands_still(target, before, to)) return Verdict::kNotNeeded;
   Verdict why = Verdict::kWorseQuality;
   for (const double share : kShares) {
     const SurfacePoint at = on_surface(c, v, from + share * (target - from));
@@ -224,7 +234,9 @@ bool climb(OperatorContext& c, VertexId v, const BallQuality& before, NewVertex&
 
 Verdict relocate_inside(OperatorContext& c, VertexId v, NewVertex& to) {
   const BallQuality before = now(c);
-  if (move_towards(c, v, ideal_place(c), before, to)) return Verdict::kAccept;
+  const Vec3 target = ideal_place(c);
+  if (stands_still(target, before, to)) return Verdict::kNotNeeded;
+  if (move_towards(c, v, target, before, to)) return Verdict::kAccept;
   if (before.worst >= kBadBall) return Verdict::kWorseQuality;
   if (move_towards(c, v, ideal_for_worst(c), before, to)) return Verdict::kAccept;
   return climb(c, v, before, to) ? Verdict::kAccept : Verdict::kWorseQuality;
