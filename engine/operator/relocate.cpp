@@ -260,12 +260,16 @@ Vec3 direction_of(const Vec3& p) {
 }  // namespace
 
 Verdict relocate(OperatorContext& c, VertexId v, NewVertex& to) {
+  gather_ball(c.mesh, v, c.marker, c.ball);
+  return relocate_in_ball(c, v, to);
+}
+
+Verdict relocate_in_ball(OperatorContext& c, VertexId v, NewVertex& to) {
   const Tag tags = c.tags(v);
   if (tags & tag::kFrozen) return Verdict::kFrozen;
   if (tags & (tag::kCorner | tag::kRequired)) return Verdict::kBreaksFeature;
   if ((tags & tag::kSurface) && c.limits.surface_frozen) return Verdict::kBreaksFeature;
   if (tags & tag::kPinched) return Verdict::kBreaksTopology;
-  gather_ball(c.mesh, v, c.marker, c.ball);
   if (c.ball.cut) return Verdict::kFrozen;
   prepare_star(c, v);
   to = {c.point(v), c.mesh.sizes[v], tags, c.mesh.vertex_refs[v], c.mesh.anchors[v]};
@@ -279,8 +283,6 @@ Verdict shake(OperatorContext& c, VertexId v, double below, double floor, NewVer
   constexpr double kStep = 0.2;  // of the wanted size
   const Tag tags = c.tags(v);
   if (tags & (tag::kFrozen | tag::kSurface | tag::kCorner | tag::kRequired)) return Verdict::kFrozen;
-  gather_ball(c.mesh, v, c.marker, c.ball);
-  if (c.ball.cut) return Verdict::kFrozen;
   if (now(c).sum > below * double(c.ball.tets.size())) return Verdict::kNotNeeded;
   prepare_star(c, v);
   to = {c.point(v), c.mesh.sizes[v], tags, c.mesh.vertex_refs[v], c.mesh.anchors[v]};

@@ -11,8 +11,12 @@ namespace cavea {
 /// takes them.
 Verdict relocate(OperatorContext& context, VertexId v, NewVertex& to);
 
+/// The same where the ball is known. \pre context.ball is that of v.
+Verdict relocate_in_ball(OperatorContext& context, VertexId v, NewVertex& to);
+
 /// Moves an interior vertex whose ball is on the average worse than `below` by a fifth of its
-/// wanted size in a direction that depends on its place, if no tet gets worse than `floor`.
+/// wanted size in a direction that depends on its place, if no tet gets worse than `floor`. \pre
+/// context.ball is that of v.
 Verdict shake(OperatorContext& context, VertexId v, double below, double floor, NewVertex& to);
 
 }  // namespace cavea

@@ -6,14 +6,10 @@
 #include "cavea/operator/edge_swap.h"
 #include "cavea/operator/face_swap.h"
 #include "cavea/operator/reconnect.h"
-#include "cavea/operator/relocate.h"
 #include "cavea/pass/passes.h"
 
 namespace cavea {
 namespace {
-
-/// Shaking leaves no tet worse than this; swaps and relocations mend it easily.
-constexpr double kShakenFloor = 0.3;
 
 /// Face swaps of better tets succeed less than once in a thousand.
 constexpr double kFaceSwapBelow = 0.5;
@@ -165,42 +161,5 @@ class QualityQueue {
 }  // namespace
 
 std::int64_t quality_pass(PartState& s) { return QualityQueue(s).run(); }
-
-std::int64_t move_pass(PartState& s) {
-  TetMesh& m = s.mesh();
-  std::vector<char> asked(m.points.size(), 0);
-  for (std::size_t t = 0; t < m.tets.size(); ++t) {
-    if (!m.tet_alive(TetId(t)) || !(m.tet_flags[t] & tet_flag::kAskMove)) continue;
-    if (m.qualities[t] > s.settings.move_ceiling) continue;
-    m.tet_flags[t] &= std::uint8_t(~tet_flag::kAskMove);
-    for (VertexId v : m.tets[t]) {
-      asked[v] = 1;
-      if (m.vertex_tags[v] & tag::kFrozen) m.tet_flags[t] |= tet_flag::kAskLater;
-    }
-  }
-  std::int64_t done = 0;
-  NewVertex to;
-  for (std::size_t v = 0; v < asked.size(); ++v) {
-    if (!asked[v] || !m.vertex_alive(VertexId(v)) || (m.vertex_tags[v] & tag::kFrozen)) continue;
-    if (!s.count(Operator::kRelocate, relocate(s.context, VertexId(v), to))) continue;
-    s.editor.move(VertexId(v), to, s.context.ball.tets, s.context.qualities);
-    ++s.result.changes;
-    ++done;
-  }
-  return done;
-}
-
-std::int64_t shake_pass(PartState& s) {
-  std::int64_t done = 0;
-  NewVertex to;
-  for (std::size_t v = 0; v < s.mesh().points.size(); ++v) {
-    if (!s.mesh().vertex_alive(VertexId(v))) continue;
-    const Verdict verdict = shake(s.context, VertexId(v), s.settings.shake_below, kShakenFloor, to);
-    if (verdict != Verdict::kAccept) continue;
-    s.editor.move(VertexId(v), to, s.context.ball.tets, s.context.qualities);
-    ++done;
-  }
-  return done;
-}
 
 }  // namespace cavea
