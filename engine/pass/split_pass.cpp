@@ -36,7 +36,8 @@ void for_each_asked_edge(const TetMesh& m, F&& f) {
 /// fit has other reasons.
 constexpr double kFittedLength = 0.9;
 
-/// How far the middle of a surface edge is from the ideal surface, in tolerances.
+/// How far the middle of a surface edge is from the ideal surface, in tolerances; where it is
+/// within, perhaps less.
 double misfit(const PartState& s, const Triangle& t, int k) {
   const OperatorContext& c = s.context;
   const VertexId a = t.v[(k + 1) % 3], b = t.v[(k + 2) % 3];
@@ -44,8 +45,10 @@ double misfit(const PartState& s, const Triangle& t, int k) {
   if (c.length(a, b) < kFittedLength || ((c.tags(a) | c.tags(b)) & tag::kOffSurface)) return 0;
   const Anchor hints[2] = {c.mesh.anchors[a], c.mesh.anchors[b]};
   const Vec3 middle = (c.point(a) + c.point(b)) / 2;
-  const SurfacePoint at = t.edge_tag[k] & tag::kFeature ? c.surface.place_on_curve(middle, hints)
-                                                        : c.surface.place(middle, t.patch, hints);
+  const SurfacePoint at =
+      t.edge_tag[k] & tag::kFeature
+          ? c.surface.place_on_curve(middle, hints)
+          : c.surface.place(middle, t.patch, hints, c.limits.tolerance_share);
   return at.anchor.facet == kNone ? 0 : std::sqrt(at.distance2 / c.tolerance2(at.anchor));
 }
 
