@@ -25,6 +25,9 @@ class CollapsePass {
  private:
   static constexpr float kNotAsked = std::numeric_limits<float>::infinity();
 
+  /// Of so many short edges at a vertex the best is good enough.
+  static constexpr std::size_t kMostCompared = 8;
+
   struct ShortEdge {
     float length;
     TetId tet;  ///< one that has it
@@ -85,12 +88,14 @@ class CollapsePass {
 
   void find_short_spokes() {
     const Ball& ball = s_.context.ball;
+    // The surface only vanishes along itself.
+    const Tag wanted = m_.vertex_tags[ball.v] & tag::kSurface;
     spokes_.clear();
     seen_.begin(m_.points.size());
     seen_.mark(ball.v);
     for (const TetId t : ball.tets)
       for (const VertexId to : m_.tets[t])
-        if (seen_.mark(to) && is_short(ball.v, to))
+        if (seen_.mark(to) && (m_.vertex_tags[to] & wanted) == wanted && is_short(ball.v, to))
           spokes_.push_back({s_.context.length(ball.v, to), to, t});
     std::ranges::sort(spokes_, [](const Spoke& a, const Spoke& b) {
       return std::pair(a.length, a.to) < std::pair(b.length, b.to);
@@ -100,6 +105,7 @@ class CollapsePass {
   /// Inside, where nothing but the new tets decides: so they stay good for long without swaps.
   void put_best_first() {
     if (spokes_.size() < 2) return;
+    spokes_.resize(std::min(spokes_.size(), kMostCompared));
     const Ball& ball = s_.context.ball;
     Star& star = s_.context.star;
     star.clear();

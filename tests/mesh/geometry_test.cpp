@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "cavea/geometry/dihedral.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/geometry/predicates.h"
 #include "cavea/geometry/quality.h"
+#include "cavea/mesh/tet_mesh.h"
 #include "support/meshes.h"
 
 namespace cavea {
@@ -108,6 +110,33 @@ TEST(MetricLength, IsTheIntegralOfTheInverseSize) {
     EXPECT_NEAR(metric_length(0.7, 0.2, 0.2 * ratio), expected, 1e-9 * expected) << ratio;
     EXPECT_NEAR(metric_length(0.7, 0.2 * ratio, 0.2), expected, 1e-9 * expected) << ratio;
   }
+}
+
+TEST(EdgesByDihedral, AreAllSixByFallingAngle) {
+  constexpr std::uint64_t kSeed = 7;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  Random random(kSeed);
+  for (int i = 0; i < 1000; ++i) {
+    std::array<Vec3, 4> x;
+    for (Vec3& p : x) p = random_point(random);
+    if (orientation(x[0], x[1], x[2], x[3]) <= 0) continue;
+    const std::array<int, 6> order = edges_by_dihedral(x);
+    auto angle = [&](int k) {
+      const int* e = kEdgeVertices[order[std::size_t(k)]];
+      return dihedral(x[std::size_t(e[0])], x[std::size_t(e[1])], x[std::size_t(e[2])],
+                      x[std::size_t(e[3])]);
+    };
+    for (int k = 0; k + 1 < 6; ++k) EXPECT_GE(angle(k), angle(k + 1) - 1e-6);
+    std::array<int, 6> all = order;
+    std::sort(all.begin(), all.end());
+    EXPECT_EQ(all, (std::array<int, 6>{0, 1, 2, 3, 4, 5}));
+  }
+}
+
+TEST(EdgesByDihedral, OfAFlatTetAreAllSix) {
+  std::array<int, 6> order = edges_by_dihedral({});
+  std::sort(order.begin(), order.end());
+  EXPECT_EQ(order, (std::array<int, 6>{0, 1, 2, 3, 4, 5}));
 }
 
 }  // namespace

@@ -65,6 +65,23 @@ TEST(Cycle, LeavesAloneWhatIsNotAskedFor) {
   EXPECT_EQ(run_cycle(stage.mesh, stage.surface, settings()).changes, 0);
 }
 
+TEST(Cycle, CollapsesFromTheBallAsFromTheEdge) {
+  // One vertex and edge, asked alone and among the edges of its ball.
+  Stage stage(subjects()[0].data);
+  stage.context.limits.short_edge = kLargeSize;
+  std::int64_t accepted = 0;
+  for (const auto& [p, q] : edges_of(stage.mesh)) {
+    ASSERT_TRUE(stage.find_edge(p, q));
+    const Verdict alone = stage.collapse();
+    const std::size_t tets = stage.cavity.tets.size();
+    gather_ball(stage.mesh, p, stage.context.marker, stage.context.ball);
+    EXPECT_EQ(edge_collapse_of_ball(stage.context, false, stage.cavity), alone);
+    EXPECT_EQ(stage.cavity.tets.size(), tets);
+    accepted += alone == Verdict::kAccept;
+  }
+  EXPECT_GT(accepted, 0);
+}
+
 TEST(Cycle, StopsAtTheMostTetsAndSaysSo) {
   Stage stage(kuhn_cube(3), 0.05);
   ask_all(stage.mesh);

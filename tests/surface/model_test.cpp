@@ -160,6 +160,30 @@ TEST(SurfaceModel, PlaceIsTheNearestPlaceOfTheModel) {
   }
 }
 
+TEST(SurfaceModel, PlaceThatIsNearEnoughIsOneOfTheModel) {
+  constexpr std::uint64_t kSeed = 3;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  const auto ball = modelled_ball(8);
+  Random random(kSeed);
+  int inexact = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const VertexId v = random_smooth_vertex(ball.mesh, random);
+    const Vec3 guess =
+        ball.mesh.points[v] + random.between(0, 0.05) * test::random_direction(random);
+    const std::span<const Anchor> hint(&ball.mesh.anchors[v], 1);
+    const SurfacePoint exact = ball.model.place(guess, 0, hint);
+    for (const double enough : {0.1, 1.0, 5.0}) {
+      const SurfacePoint s = ball.model.place(guess, 0, hint, enough);
+      EXPECT_NEAR(s.distance2, distance2(s.point, guess), 1e-15);
+      EXPECT_LT(distance(at(ball.model, s.anchor), s.point), kAnchorRounding);
+      const double tolerance = enough * ball.model.tolerance(s.anchor);
+      EXPECT_LE(std::sqrt(s.distance2), std::max(tolerance, std::sqrt(exact.distance2)) + 1e-12);
+      inexact += s.distance2 > exact.distance2;
+    }
+  }
+  EXPECT_GT(inexact, 0);  // else nothing would be saved
+}
+
 TEST(SurfaceModel, PlaceKeepsToThePatch) {
   const auto cube = modelled_cube(2);
   for (std::size_t t = 0; t < cube.mesh.triangles.size(); ++t) {
