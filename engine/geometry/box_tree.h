@@ -23,10 +23,10 @@ class BoxTree {
   /// The slots of the boxes: the inverse of order().
   std::vector<std::int32_t> slots() const;
 
-  /// Calls visit(slot) for the boxes that may hold something nearer to p than sqrt(bound2), near
-  /// ones first; visit lowers bound2 as it finds something.
-  template <class Visit>
-  void visit_near(const Vec3& p, double& bound2, Visit&& visit) const {
+  /// Calls visit(slot) for the boxes that may hold something nearer to a point or box than
+  /// sqrt(bound2), near ones first; visit lowers bound2 as it finds something.
+  template <class Place, class Visit>
+  void visit_near(const Place& p, double& bound2, Visit&& visit) const {
     if (order_.empty()) return;
     std::array<std::pair<std::size_t, double>, kMaxLevels + 2> stack;
     std::size_t depth = 0;
