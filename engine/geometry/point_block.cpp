@@ -97,10 +97,10 @@ CAVEA_WIDE void improve_all(std::size_t groups, In found, std::int64_t number, O
 
 }  // namespace
 
-double NearestOfBlock::improve(const PointBlock::Row& found, std::int32_t number) {
+void NearestOfBlock::improve(const PointBlock::Row& found, std::int32_t number) {
   Maxima largest;
   improve_all(groups_, found.data(), number, distance2_.data(), number_.data(), largest);
-  return *std::max_element(largest.begin(), largest.end());
+  largest2_ = *std::max_element(largest.begin(), largest.end());
 }
 
 bool NearestOfBlock::may_improve(const PointBlock::Row& found, double slack) const {

@@ -48,12 +48,15 @@ class NearestOfBlock {
   /// Nothing yet, of n points.
   void clear(std::size_t n) {
     groups_ = (n + PointBlock::kGroup - 1) / PointBlock::kGroup;
-    distance2_.fill(std::numeric_limits<double>::infinity());
+    largest2_ = std::numeric_limits<double>::infinity();
+    distance2_.fill(largest2_);
     number_.fill(kNone);
   }
-  /// Sees which points are nearer to one more thing. \return the largest squared distance then
-  double improve(const PointBlock::Row& distance2, std::int32_t number);
+  /// Sees which points are nearer to one more thing.
+  void improve(const PointBlock::Row& distance2, std::int32_t number);
 
+  /// The largest squared distance.
+  double largest2() const { return largest2_; }
   double distance2(std::size_t i) const { return distance2_[i]; }
   std::int32_t number(std::size_t i) const { return std::int32_t(number_[i]); }
   /// Whether a point may be nearer to something than to what is known, if that is nowhere nearer
@@ -62,6 +65,7 @@ class NearestOfBlock {
 
  private:
   std::size_t groups_ = 0;
+  double largest2_ = std::numeric_limits<double>::infinity();
   alignas(64) PointBlock::Row distance2_;
   alignas(64) std::array<std::int64_t, PointBlock::kMost> number_;
 };

@@ -90,17 +90,20 @@ double least_hausd_of(const SurfaceModel& model) {
 /// The output's triangles, measured from the model.
 class FromModel {
  public:
+  /// \param hausd the smallest \param small bounds that will do at first
   FromModel(const OutputSurface& out, const SurfaceModel& model, const PatchTree& tree,
-            double hausd)
-      : out_(out), model_(model), tree_(tree), hausd_(hausd) {}
+            double hausd, double small)
+      : out_(out), model_(model), tree_(tree), hausd_(hausd), small_(small) {}
 
   struct Near {
     std::vector<std::int32_t> slots;
+    bool all = false;  ///< are to be looked at, or only until all bounds are small
   };
 
   /// Its facet if it is one, and those where its corners are.
   void begin(std::size_t t, Near& near) const {
     near.slots.clear();
+    near.all = false;
     add(out_.facets[t], near);
     for (const std::int32_t facet : out_.anchors[t])
       if (facet >= kNone)
@@ -114,6 +117,7 @@ class FromModel {
     Box box;
     for (const Vec3& p : out_.corners[t]) box.add(p);
     near.slots.clear();
+    near.all = true;
     tree_.near(box, reach_around(box, hausd_), near.slots);
     // The likeliest first: what is far behind it is left out soon.
     const std::int32_t likely = tree_.hint_at(out_.facets[t]).slot;
@@ -139,7 +143,11 @@ class FromModel {
     }
     NearestOfBlock nearest;
     nearest.clear(block.count);
-    for (const std::int32_t slot : near.slots) tree_.improve(points, slot, nearest);
+    const Box box = points.box();
+    for (const std::int32_t slot : near.slots) {
+      tree_.improve(points, box, slot, nearest);
+      if (!near.all && nearest.largest2() <= small_ * small_) break;
+    }
     for (std::size_t i = 0; i < block.count; ++i)
       measured[std::size_t(block.place[i])] = result(t, nearest.distance2(i), nearest.number(i));
   }
@@ -165,14 +173,16 @@ class FromModel {
   const OutputSurface& out_;
   const SurfaceModel& model_;
   const PatchTree& tree_;
-  double hausd_;  ///< the smallest
+  double hausd_, small_;
 };
 
 /// The model's patches, measured from the output.
 class FromOutput {
  public:
-  FromOutput(const OutputSurface& out, const SurfaceModel& model, const FacetTree& tree)
-      : model_(model), tree_(tree), near_(model.facets(), kNone) {
+  /// \param small bounds that will do at first
+  FromOutput(const OutputSurface& out, const SurfaceModel& model, const FacetTree& tree,
+             double small)
+      : model_(model), tree_(tree), small_(small), near_(model.facets(), kNone) {
     for (std::size_t t = 0; t < out.facets.size(); ++t)
       if (const std::int32_t f = out.facets[t]; f >= 0 && std::size_t(f) < near_.size())
         near_[std::size_t(f)] = tree.hint_at(std::int32_t(t)).slot;
@@ -180,10 +190,11 @@ class FromOutput {
 
   struct Near {
     std::int32_t slot = kNone;
+    double small = -1;  ///< bounds that will do
   };
 
-  void begin(std::size_t f, Near& near) const { near.slot = near_[f]; }
-  void widen(std::size_t, Near&) const {}  // all around is looked at in any case
+  void begin(std::size_t f, Near& near) const { near = {near_[f], small_}; }
+  void widen(std::size_t, Near& near) const { near.small = -1; }
 
   Vec3 at(std::size_t f, double u, double v) const { return patch(f).at(u, v); }
 
@@ -194,11 +205,11 @@ class FromOutput {
     const Box box = points.box();
     const double hausd = model_.hausd(std::int32_t(f)), reach = reach_around(box, hausd);
     NearestOfBlock nearest;
-    tree_.nearest(points, box, near.slot, reach, nearest);
+    const bool all = tree_.nearest(points, box, near.slot, reach, near.small, nearest);
     for (std::size_t i = 0; i < block.count; ++i) {
       Measured& m = measured[std::size_t(block.place[i])];
       m = result(f, nearest.distance2(i), nearest.number(i));
-      m.exact = nearest.distance2(i) < reach * reach;
+      m.exact = all && nearest.distance2(i) < reach * reach;
     }
   }
 
@@ -220,6 +231,7 @@ class FromOutput {
 
   const SurfaceModel& model_;
   const FacetTree& tree_;
+  double small_;
   std::vector<std::int32_t> near_;  ///< slot of a triangle that is likely to be near
 };
 
@@ -364,11 +376,12 @@ SurfaceDistance DistanceMeter::measure(const TetMesh& mesh) {
   OutputSurface now(mesh);
   prefer_own_facets(m.facets, now);
   m.forget_what_changed(std::move(now));
-  const FromModel from_model(m.out, m.model, m.tree, m.least_hausd);
+  const double small = m.sampling.enough * m.least_hausd;
+  const FromModel from_model(m.out, m.model, m.tree, m.least_hausd, small);
   Sampler(m.out.corners, m.sampling, m.lattices, m.least_hausd, true, from_model)
       .sample_all(m.of_out);
   const FacetTree tree(m.out.corners);
-  const FromOutput from_output(m.out, m.model, tree);
+  const FromOutput from_output(m.out, m.model, tree, small);
   Sampler(m.facets, m.sampling, m.lattices, m.least_hausd, false, from_output)
       .sample_all(m.of_model);
   SurfaceDistance result;

@@ -50,21 +50,25 @@ NearestFacet FacetTree::nearest(const Vec3& p, double bound2) const {
   return best;
 }
 
-void FacetTree::nearest(const PointBlock& points, const Box& box, std::int32_t hint, double reach,
-                        NearestOfBlock& nearest) const {
+bool FacetTree::nearest(const PointBlock& points, const Box& box, std::int32_t hint, double reach,
+                        double small, NearestOfBlock& nearest) const {
   nearest.clear(points.size());
-  const double reach2 = reach * reach;
-  double bound2 = reach2;
   ClosestOfBlock closest;
   const auto look = [&](std::size_t slot) {
     const Corners& t = triangles_[slot];
     closest_on_triangle(points, t[0], t[1], t[2], closest);
-    bound2 = std::min(reach2, nearest.improve(closest.distance2, std::int32_t(slot)));
+    nearest.improve(closest.distance2, std::int32_t(slot));
   };
   if (hint != kNone) look(std::size_t(hint));
+  if (small >= 0 && nearest.largest2() <= small * small) return false;
+  const double reach2 = reach * reach;
+  double bound2 = std::min(reach2, nearest.largest2());
   tree_.visit_near(box, bound2, [&](std::size_t slot) {
-    if (std::int32_t(slot) != hint && box_of(triangles_[slot]).distance2(box) < bound2) look(slot);
+    if (std::int32_t(slot) == hint || box_of(triangles_[slot]).distance2(box) >= bound2) return;
+    look(slot);
+    bound2 = std::min(reach2, nearest.largest2());
   });
+  return true;
 }
 
 NearestFacet FacetTree::hint_at(std::int32_t triangle) const {

@@ -37,10 +37,11 @@ class FacetTree {
   NearestFacet nearest_from(const Vec3& p, const NearestFacet& hint, double small = -1) const;
 
   /// The triangles nearest to the points of a block, where one is nearer than `reach`; where none
-  /// is, one that need not be the nearest, or none. \param box of the points \param hint a
-  /// triangle's slot, or none
-  void nearest(const PointBlock& points, const Box& box, std::int32_t hint, double reach,
-               NearestOfBlock& nearest) const;
+  /// is, one that need not be the nearest, or none.
+  /// \param box of the points \param hint a triangle's slot, or none: that one alone will do if no
+  /// point is farther from it than `small` \return whether the others have been looked at
+  bool nearest(const PointBlock& points, const Box& box, std::int32_t hint, double reach,
+               double small, NearestOfBlock& nearest) const;
   /// The triangle in a slot.
   std::int32_t triangle(std::int32_t slot) const { return tree_.order()[std::size_t(slot)]; }
 

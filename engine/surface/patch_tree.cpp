@@ -87,19 +87,23 @@ PatchTree::PatchTree(const SurfaceModel& model)
   });
 }
 
+bool PatchTree::Leaf::is_within(double reach, const Box& box) const {
+  Box facet;
+  for (const Vec3& p : corner) facet.add(p);
+  const double by = reach + bulge;
+  return facet.distance2(box) <= by * by;
+}
+
 void PatchTree::near(const Box& box, double reach, std::vector<std::int32_t>& slots) const {
   tree_.visit_overlapping(box.widened(reach), [&](std::size_t slot) {
-    const Leaf& leaf = leaves_[slot];
-    Box facet;
-    for (const Vec3& p : leaf.corner) facet.add(p);
-    const double by = reach + leaf.bulge;
-    if (facet.distance2(box) <= by * by) slots.push_back(std::int32_t(slot));
+    if (leaves_[slot].is_within(reach, box)) slots.push_back(std::int32_t(slot));
   });
 }
 
-void PatchTree::improve(const PointBlock& points, std::int32_t slot,
+void PatchTree::improve(const PointBlock& points, const Box& box, std::int32_t slot,
                         NearestOfBlock& nearest) const {
   const Leaf& leaf = leaves_[std::size_t(slot)];
+  if (!leaf.is_within(std::sqrt(nearest.largest2()), box)) return;
   ClosestOfBlock flat;
   closest_on_triangle(points, leaf.corner[0], leaf.corner[1], leaf.corner[2], flat);
   if (!nearest.may_improve(flat.distance2, leaf.bulge)) return;

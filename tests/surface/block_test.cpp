@@ -122,7 +122,7 @@ TEST(FacetTree, FindsForABlockWhatItFindsForEachPointWithinReach) {
     const double reach = random.between(0, 0.4);
     const std::int32_t hint = seed % 2 ? kNone : random.below(int(triangles.size()));
     NearestOfBlock nearest;
-    tree.nearest(points, points.box(), hint, reach, nearest);
+    EXPECT_TRUE(tree.nearest(points, points.box(), hint, reach, -1, nearest));
     for (std::size_t i = 0; i < n; ++i) {
       const double truly = tree.nearest(points[i]).distance2;
       if (truly < reach * reach)
@@ -150,7 +150,7 @@ TEST(PatchTree, BoundsOfABlockAreAboveAndNear) {
     tree.near(points.box(), kReach, slots);
     NearestOfBlock nearest;
     nearest.clear(points.size());
-    for (const std::int32_t slot : slots) tree.improve(points, slot, nearest);
+    for (const std::int32_t slot : slots) tree.improve(points, points.box(), slot, nearest);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double truly = std::sqrt(tree.nearest(points[i]).place.distance2);
       const double bound = std::sqrt(nearest.distance2(i));
