@@ -29,6 +29,18 @@ struct Box {
                  z = outside(p.z, low.z, high.z);
     return x * x + y * y + z * z;
   }
+  /// Squared distance of two boxes; 0 where they overlap.
+  double distance2(const Box& b) const {
+    const auto apart = [](double l, double h, double bl, double bh) {
+      return bh < l ? l - bh : bl > h ? bl - h : 0;
+    };
+    const double x = apart(low.x, high.x, b.low.x, b.high.x),
+                 y = apart(low.y, high.y, b.low.y, b.high.y),
+                 z = apart(low.z, high.z, b.low.z, b.high.z);
+    return x * x + y * y + z * z;
+  }
+  /// The box with room around it.
+  Box widened(double by) const { return {low - Vec3{by, by, by}, high + Vec3{by, by, by}}; }
   bool overlaps(const Box& b) const {
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y &&
            low.z <= b.high.z && b.low.z <= high.z;

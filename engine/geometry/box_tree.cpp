@@ -1,38 +1,47 @@
 #include "cavea/geometry/box_tree.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "cavea/base/parallel.h"
 
 namespace cavea {
 
 BoxTree::BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {
-  std::iota(order_.begin(), order_.end(), 0);
   if (order_.empty()) return;
   while (order_.size() >> levels_ > kLeafSize) ++levels_;
-  for (int level = 0; level < levels_; ++level) sort_level(level, boxes);
+  std::vector<Centre> centres(boxes.size());
+  parallel_for(boxes.size(), [&](std::size_t i) {
+    centres[i] = {boxes[i].low + boxes[i].high, std::int32_t(i)};
+  });
+  for (int level = 0; level < levels_; ++level) sort_level(level, centres);
+  parallel_for(order_.size(), [&](std::size_t slot) { order_[slot] = centres[slot].box; });
   set_boxes(boxes);
 }
 
 /// Parts the slots of each node of a level at the median along the longest side of the centres'
 /// box.
-void BoxTree::sort_level(int level, std::span<const Box> boxes) {
+void BoxTree::sort_level(int level, std::vector<Centre>& all) const {
   parallel_for(
       std::size_t{1} << level,
       [&](std::size_t k) {
         const auto [begin, end] = range(level, k);
-        const auto centre2 = [&](std::int32_t i) { return boxes[i].low + boxes[i].high; };
         Box centres;
-        for (std::size_t slot = begin; slot < end; ++slot) centres.add(centre2(order_[slot]));
+        for (std::size_t slot = begin; slot < end; ++slot) centres.add(all[slot].twice);
         const Vec3 side = centres.high - centres.low;
-        const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
-        const auto first = order_.begin();
-        std::nth_element(first + begin, first + range(level + 1, 2 * k).second, first + end,
-                         [&](std::int32_t a, std::int32_t b) {
-                           const double x = centre2(a)[axis], y = centre2(b)[axis];
-                           return x < y || (x == y && a < b);
-                         });
+        const auto part = [&](double Vec3::*axis) {
+          const auto first = all.begin();
+          std::nth_element(first + begin, first + range(level + 1, 2 * k).second, first + end,
+                           [&](const Centre& a, const Centre& b) {
+                             const double x = a.twice.*axis, y = b.twice.*axis;
+                             return x < y || (x == y && a.box < b.box);
+                           });
+        };
+        if (side.x >= side.y && side.x >= side.z)
+          part(&Vec3::x);
+        else if (side.y >= side.z)
+          part(&Vec3::y);
+        else
+          part(&Vec3::z);
       },
       1);
 }

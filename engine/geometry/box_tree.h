@@ -23,10 +23,10 @@ class BoxTree {
   /// The slots of the boxes: the inverse of order().
   std::vector<std::int32_t> slots() const;
 
-  /// Calls visit(slot) for the boxes that may hold something nearer to p than sqrt(bound2), near
-  /// ones first; visit lowers bound2 as it finds something.
-  template <class Visit>
-  void visit_near(const Vec3& p, double& bound2, Visit&& visit) const {
+  /// Calls visit(slot) for the boxes that may hold something nearer to a point or box than
+  /// sqrt(bound2), near ones first; visit lowers bound2 as it finds something.
+  template <class Place, class Visit>
+  void visit_near(const Place& p, double& bound2, Visit&& visit) const {
     if (order_.empty()) return;
     std::array<std::pair<std::size_t, double>, kMaxLevels + 2> stack;
     std::size_t depth = 0;
@@ -74,12 +74,18 @@ class BoxTree {
   /// Boxes are numbered by 32 bits.
   static constexpr int kMaxLevels = 32;
 
+  /// Of a box, by itself: looking it up by number for each comparison would take twice as long.
+  struct Centre {
+    Vec3 twice;
+    std::int32_t box;
+  };
+
   std::size_t first_leaf() const { return (std::size_t{1} << levels_) - 1; }
   /// The slots below node k of a level.
   std::pair<std::size_t, std::size_t> range(int level, std::size_t k) const {
     return {order_.size() * k >> level, order_.size() * (k + 1) >> level};
   }
-  void sort_level(int level, std::span<const Box> boxes);
+  void sort_level(int level, std::vector<Centre>& centres) const;
   void set_boxes(std::span<const Box> boxes);
 
   int levels_ = 0;  ///< below the root

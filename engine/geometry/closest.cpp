@@ -39,13 +39,10 @@ ClosestOnTriangle closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& 
     const double sum = (d4 - d3) + (d5 - d6), w = sum > 0 ? (d4 - d3) / sum : 0;
     return result(1 - w, w);
   }
-  // Relative to its terms, below this the squared area is rounding: the triangle has none, or is so
-  // far away that its sides are as near as its inside.
-  constexpr double kRounding = 1e-13;
   const double sum = va + vb + vc;
   const double terms = std::abs(d1 * d4) + std::abs(d3 * d2) + std::abs(d5 * d2) +
                        std::abs(d1 * d6) + std::abs(d3 * d6) + std::abs(d5 * d4);
-  if (!(sum > kRounding * terms)) return closest_on_sides(p, a, b, c);
+  if (!(sum > kAreaRounding * terms)) return closest_on_sides(p, a, b, c);
   return result(vb / sum, vc / sum);
 }
 

@@ -1,6 +1,31 @@
 #include "cavea/surface/bezier.h"
 
+#include "cavea/base/wide.h"
+
 namespace cavea {
+namespace {
+
+using In = const double* __restrict;
+using Out = double* __restrict;
+
+/// BezierTriangle::at(), in the same order.
+CAVEA_WIDE void places(std::size_t groups, const BezierTriangle& patch, In u, In v, Out x, Out y,
+                       Out z) {
+  const auto [a0, a1, a2] = patch.corner;
+  const auto [b0, b1] = patch.edge[0];
+  const auto [c0, c1] = patch.edge[1];
+  const auto [d0, d1] = patch.edge[2];
+  const Vec3 m = patch.center;
+  for (std::size_t i = 0; i < groups * PointBlock::kGroup; ++i) {
+    const double s = u[i], t = v[i], w = 1 - s - t;
+    const Vec3 p = w * w * w * a0 + s * s * s * a1 + t * t * t * a2 + 3 * s * s * t * b0 +
+                   3 * s * t * t * b1 + 3 * t * t * w * c0 + 3 * t * w * w * c1 +
+                   3 * w * w * s * d0 + 3 * w * s * s * d1 + 6 * s * t * w * m;
+    x[i] = p.x, y[i] = p.y, z[i] = p.z;
+  }
+}
+
+}  // namespace
 
 Vec3 BezierCurve::at(double t) const {
   const double s = 1 - t;
@@ -21,6 +46,13 @@ Vec3 BezierTriangle::at(double u, double v) const {
          3 * u * u * v * edge[0][0] + 3 * u * v * v * edge[0][1] + 3 * v * v * w * edge[1][0] +
          3 * v * w * w * edge[1][1] + 3 * w * w * u * edge[2][0] + 3 * w * u * u * edge[2][1] +
          6 * u * v * w * center;
+}
+
+void BezierTriangle::at(std::size_t n, const PointBlock::Row& u, const PointBlock::Row& v,
+                        PointBlock& points) const {
+  points.resize(n);
+  places(points.groups(), *this, u.data(), v.data(), points.x.data(), points.y.data(),
+         points.z.data());
 }
 
 std::array<Vec3, 2> BezierTriangle::derivatives(double u, double v) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include "cavea/geometry/point_block.h"
 #include "cavea/geometry/vec3.h"
 
 namespace cavea {
@@ -23,6 +24,9 @@ struct BezierTriangle {
 
   /// sigma(u, v).
   Vec3 at(double u, double v) const;
+  /// The same of the first n places, to the bit, into the block: to the end of its last group.
+  void at(std::size_t n, const PointBlock::Row& u, const PointBlock::Row& v,
+          PointBlock& points) const;
   /// The derivatives of sigma by u and by v.
   std::array<Vec3, 2> derivatives(double u, double v) const;
   /// Unnormalised normal: the cross product of the derivatives.

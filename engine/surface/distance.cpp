@@ -7,172 +7,18 @@
 #include "cavea/geometry/closest.h"
 #include "cavea/surface/facet_tree.h"
 #include "cavea/surface/patch_tree.h"
+#include "cavea/surface/sampler.h"
 
 namespace cavea {
 namespace {
 
-/// 276 lattice points; a triangle that needs more at the caller's step is far larger than the rest.
-constexpr int kMaxIntervals = 22;
-/// Corners and edge midpoints.
-constexpr int kMinIntervals = 2;
-/// Triangles a task: their cost differs by their samples.
-constexpr std::size_t kGrain = 32;
+/// How far around a block of samples it is looked for what is nearest to all of them, in its box's
+/// diagonals: what is farther is looked for from each sample.
+constexpr double kReach = 0.5;
 
-double longest_edge2(const Corners& t) {
-  return std::max({distance2(t[0], t[1]), distance2(t[1], t[2]), distance2(t[2], t[0])});
+double reach_around(const Box& box, double hausd) {
+  return std::min(hausd, kReach * distance(box.low, box.high));
 }
-
-/// Calls f(u, v) on the lattice of n intervals an edge, and on the edge midpoints and the centroid
-/// where the lattice misses them: these first, since they are mostly the farthest.
-template <class F>
-void for_each_sample(int n, F&& f) {
-  if (n % 3 != 0) f(1.0 / 3, 1.0 / 3);
-  if (n % 2 != 0) f(0.5, 0.0), f(0.5, 0.5), f(0.0, 0.5);
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n - j; ++i) f(double(i) / n, double(j) / n);
-}
-
-/// A sample's distance, and hausd at the facet that it is from or to.
-struct Measured {
-  double distance, hausd;
-  std::int32_t triangle = kNone;  ///< of the output, that it is from or to
-};
-
-/// What the samples of one triangle say, or bounds above it.
-struct Sampled {
-  double max = -1, worst = -1, hausd = 0, sum = 0, area = 0;
-  Vec3 where;
-  std::int32_t triangle = kNone;
-  int count = 0;
-  bool exact = false;
-
-  void add(const Vec3& x, const Measured& m) {
-    max = std::max(max, m.distance);
-    if (m.distance > worst * m.hausd) {
-      worst = m.distance / m.hausd, hausd = m.hausd;
-      where = x, triangle = m.triangle;
-    }
-    sum += m.distance;
-    ++count;
-  }
-};
-
-int intervals(const Corners& k, double step) {
-  const double wanted = std::ceil(std::sqrt(longest_edge2(k)) / step);
-  return int(std::clamp<double>(wanted, kMinIntervals, kMaxIntervals));
-}
-
-/// Between the samples of a triangle that are so many hausd away there may be one beyond 1.
-constexpr double kNearLimit = 0.75;
-
-/// Adds samples around the worst one of a triangle, nearer and nearer, and around what is worse
-/// then. \param worst_at its barycentric coordinates, which add(u, v) keeps
-template <class Add>
-void climb(const std::array<double, 2>& worst_at, double step, Add&& add) {
-  constexpr int kHalvings = 3;
-  constexpr int kDirections[][2] = {{1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {-1, 0}};
-  for (int k = 0; k < kHalvings; ++k, step /= 2) {
-    const auto [u, v] = worst_at;
-    for (const auto& [i, j] : kDirections) {
-      const double x = u + i * step, y = v + j * step;
-      if (x >= 0 && y >= 0 && x + y <= 1) add(x, y);
-    }
-  }
-}
-
-/// Samples the triangles of one surface. distance_from() makes a function of the sample x for each
-/// triangle in turn, so that a search may begin where it ended for the sample before. Never where
-/// another triangle's ended: which one that is depends on the threads. Its second argument is a
-/// distance so small that it need not be exact, but may be that from where the search begins.
-template <class At, class DistanceFrom>
-class Sampler {
- public:
-  /// \param may_stop where the first samples are all near: not where the triangle is far larger
-  /// than those of the other surface
-  Sampler(std::span<const Corners> triangles, const DistanceSampling& sampling, double least_hausd,
-          bool may_stop, At at, DistanceFrom distance_from)
-      : triangles_(triangles),
-        sampling_(sampling),
-        least_hausd_(least_hausd),
-        may_stop_(may_stop),
-        at_(std::move(at)),
-        distance_from_(std::move(distance_from)) {}
-
-  /// Bounds first, which are near; then what is as far as others is looked at, the farthest first,
-  /// until no bound is above the largest distance. Those that have samples keep them.
-  void sample_all(std::vector<Sampled>& samples) const {
-    const bool all_exact = sampling_.enough == 0;
-    parallel_for(
-        samples.size(),
-        [&](std::size_t t) {
-          if (samples[t].count == 0) samples[t] = sample(t, all_exact);
-        },
-        kGrain);
-    if (!all_exact) make_exact_what_matters(samples);
-  }
-
- private:
-  /// Of all samples or with bounds of them, which are no less.
-  Sampled sample(std::size_t t, bool exact) const {
-    const Corners& k = triangles_[t];
-    Sampled s;
-    auto distance = distance_from_(t);
-    std::array<double, 2> worst_at{};
-    auto small_enough = [&] {
-      if (!exact) return sampling_.enough * least_hausd_;
-      return sampling_.enough > 0 ? std::min(s.max, s.worst * least_hausd_) : -1;
-    };
-    auto add = [&](double u, double v) {
-      const double before = s.worst;
-      const Vec3 x = at_(t, u, v);
-      s.add(x, distance(x, small_enough()));
-      if (s.worst > before) worst_at = {u, v};
-    };
-    const int n = intervals(k, sampling_.step);
-    if (n > kMinIntervals && sampling_.enough > 0) for_each_sample(kMinIntervals, add);
-    if (s.count == 0 || !may_stop_ || s.worst > sampling_.enough) for_each_sample(n, add);
-    if (exact && s.worst > kNearLimit) climb(worst_at, 0.5 / n, add);
-    s.area = norm(cross(k[1] - k[0], k[2] - k[0])) / 2;
-    s.exact = exact;
-    return s;
-  }
-
-  void make_exact_what_matters(std::vector<Sampled>& samples) const {
-    constexpr std::size_t kBatch = 1024;  // after which those that cannot be farther are left out
-    const double always = std::min(kNearLimit, sampling_.most);
-    double max = -1, worst = -1;
-    std::vector<std::size_t> open;
-    for (std::size_t t = 0; t < samples.size(); ++t)
-      if (const Sampled& s = samples[t]; !s.exact)
-        open.push_back(t);
-      else
-        max = std::max(max, s.max), worst = std::max(worst, s.worst);
-    auto is_farther = [&](std::size_t a, std::size_t b) {
-      return std::tie(samples[b].worst, a) < std::tie(samples[a].worst, b);
-    };
-    for (;;) {
-      std::erase_if(open, [&](std::size_t t) {
-        const Sampled& s = samples[t];
-        return s.exact || (s.max <= max && s.worst <= worst && s.worst <= always);
-      });
-      if (open.empty()) return;
-      const auto end = open.begin() + std::ptrdiff_t(std::min(kBatch, open.size()));
-      std::partial_sort(open.begin(), end, open.end(), is_farther);
-      const std::size_t count = std::size_t(end - open.begin());
-      parallel_for(
-          count, [&](std::size_t i) { samples[open[i]] = sample(open[i], true); }, kGrain);
-      for (auto t = open.begin(); t != end; ++t)
-        max = std::max(max, samples[*t].max), worst = std::max(worst, samples[*t].worst);
-    }
-  }
-
-  std::span<const Corners> triangles_;
-  const DistanceSampling& sampling_;
-  double least_hausd_;
-  bool may_stop_;
-  At at_;
-  DistanceFrom distance_from_;
-};
 
 OneSidedDistance fold(const std::vector<Sampled>& samples, const DistanceSampling& sampling) {
   const bool all_exact = sampling.enough == 0;
@@ -204,7 +50,8 @@ std::vector<FarSample> beyond(const std::vector<Sampled>& samples, double most, 
 struct OutputSurface {
   std::vector<TriangleId> ids;
   std::vector<Corners> corners;
-  std::vector<std::int32_t> facets;  ///< as a corner's anchor says: of this model, or of another
+  std::vector<std::array<std::int32_t, 3>> anchors;  ///< of this model, or of another
+  std::vector<std::int32_t> facets;                  ///< as one of these says
 
   OutputSurface() = default;
   explicit OutputSurface(const TetMesh& mesh) {
@@ -213,8 +60,9 @@ struct OutputSurface {
       if (!s.alive()) continue;
       ids.push_back(TriangleId(t));
       corners.push_back({mesh.points[s.v[0]], mesh.points[s.v[1]], mesh.points[s.v[2]]});
-      facets.push_back(kNone);
-      for (const VertexId v : s.v) facets.back() = std::max(facets.back(), mesh.anchors[v].facet);
+      const auto anchor = [&](int k) { return mesh.anchors[s.v[k]].facet; };
+      anchors.push_back({anchor(0), anchor(1), anchor(2)});
+      facets.push_back(std::max({kNone, anchor(0), anchor(1), anchor(2)}));
     }
   }
 };
@@ -232,10 +80,6 @@ std::vector<Corners> facets_of(const SurfaceModel& model) {
   return facets;
 }
 
-Vec3 on_flat(const Corners& t, double u, double v) {
-  return (1 - u - v) * t[0] + u * t[1] + v * t[2];
-}
-
 double least_hausd_of(const SurfaceModel& model) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < model.facets(); ++f)
@@ -243,43 +87,153 @@ double least_hausd_of(const SurfaceModel& model) {
   return least;
 }
 
-void sample_output(const OutputSurface& out, const SurfaceModel& model, const PatchTree& tree,
-                   const DistanceSampling& sampling, std::vector<Sampled>& samples) {
-  const Sampler sampler(
-      out.corners, sampling, least_hausd_of(model), true,
-      [&](std::size_t t, double u, double v) { return on_flat(out.corners[t], u, v); },
-      [&](std::size_t t) {
-        return [&, t, last = tree.hint_at(out.facets[t])](const Vec3& x, double small) mutable {
-          last = tree.nearest(x, last, small);
-          const double hausd = last.facet == kNone ? 1 : model.hausd(last.facet);
-          return Measured{std::sqrt(last.place.distance2), hausd, std::int32_t(t)};
-        };
-      });
-  sampler.sample_all(samples);
-}
+/// The output's triangles, measured from the model.
+class FromModel {
+ public:
+  /// \param hausd the smallest \param small bounds that will do at first
+  FromModel(const OutputSurface& out, const SurfaceModel& model, const PatchTree& tree,
+            double hausd, double small)
+      : out_(out), model_(model), tree_(tree), hausd_(hausd), small_(small) {}
 
-void sample_model(const OutputSurface& out, const SurfaceModel& model,
-                  std::span<const Corners> facets, const DistanceSampling& sampling,
-                  std::vector<Sampled>& samples) {
-  const FacetTree tree(out.corners);
-  std::vector<std::int32_t> near(facets.size(), kNone);
-  for (std::size_t t = 0; t < out.facets.size(); ++t)
-    if (const std::int32_t f = out.facets[t]; f >= 0 && std::size_t(f) < near.size())
-      near[std::size_t(f)] = std::int32_t(t);
-  const Sampler sampler(
-      facets, sampling, least_hausd_of(model), false,
-      [&](std::size_t f, double u, double v) {
-        return model.patch_of_facet(std::int32_t(f)).at(u, v);
-      },
-      [&](std::size_t f) {
-        const double hausd = model.hausd(std::int32_t(f));
-        return [&tree, hausd, last = tree.hint_at(near[f])](const Vec3& x, double small) mutable {
-          last = tree.nearest_from(x, last, small);
-          return Measured{std::sqrt(last.distance2), hausd, last.facet};
-        };
-      });
-  sampler.sample_all(samples);
-}
+  struct Near {
+    std::vector<std::int32_t> slots;
+    bool all = false;  ///< are to be looked at, or only until all bounds are small
+  };
+
+  /// Its facet if it is one, and those where its corners are.
+  void begin(std::size_t t, Near& near) const {
+    near.slots.clear();
+    near.all = false;
+    add(out_.facets[t], near);
+    for (const std::int32_t facet : out_.anchors[t])
+      if (facet >= kNone)
+        add(facet, near);
+      else if (const std::int32_t edge = SurfaceModel::curve_of(facet);
+               std::size_t(edge) < model_.curve_edges())
+        for (const std::int32_t f : model_.facets_at_curve(edge)) add(f, near);
+  }
+
+  void widen(std::size_t t, Near& near) const {
+    Box box;
+    for (const Vec3& p : out_.corners[t]) box.add(p);
+    near.slots.clear();
+    near.all = true;
+    tree_.near(box, reach_around(box, hausd_), near.slots);
+    // The likeliest first: what is far behind it is left out soon.
+    const std::int32_t likely = tree_.hint_at(out_.facets[t]).slot;
+    const auto at = std::ranges::find(near.slots, likely);
+    if (at != near.slots.end())
+      std::swap(*at, near.slots.front());
+    else if (likely != kNone)
+      near.slots.push_back(likely);
+  }
+
+  Vec3 at(std::size_t t, double u, double v) const {
+    const Corners& k = out_.corners[t];
+    return (1 - u - v) * k[0] + u * k[1] + v * k[2];
+  }
+
+  void bound(std::size_t t, const Lattice::Block& block, const Near& near,
+             std::vector<Measured>& measured) const {
+    PointBlock points;
+    points.resize(block.count);
+    for (std::size_t i = 0; i < points.groups() * PointBlock::kGroup; ++i) {
+      const Vec3 p = at(t, block.u[i], block.v[i]);
+      points.x[i] = p.x, points.y[i] = p.y, points.z[i] = p.z;
+    }
+    NearestOfBlock nearest;
+    nearest.clear(block.count);
+    const Box box = points.box();
+    for (const std::int32_t slot : near.slots) {
+      tree_.improve(points, box, slot, nearest);
+      if (!near.all && nearest.largest2() <= small_ * small_) break;
+    }
+    for (std::size_t i = 0; i < block.count; ++i)
+      measured[std::size_t(block.place[i])] = result(t, nearest.distance2(i), nearest.number(i));
+  }
+
+  Measured exact(std::size_t t, const Vec3& x, const Measured& from, double small) const {
+    NearestOnModel hint;
+    hint.slot = from.slot;
+    const NearestOnModel r = tree_.nearest(x, hint, small);
+    return result(t, r.place.distance2, r.slot);
+  }
+
+ private:
+  void add(std::int32_t facet, Near& near) const {
+    const std::int32_t slot = tree_.hint_at(facet).slot;
+    if (slot != kNone && std::ranges::find(near.slots, slot) == near.slots.end())
+      near.slots.push_back(slot);
+  }
+  Measured result(std::size_t t, double distance2, std::int32_t slot) const {
+    return {std::sqrt(distance2), slot == kNone ? 1 : model_.hausd(tree_.facet(slot)),
+            std::int32_t(t), slot};
+  }
+
+  const OutputSurface& out_;
+  const SurfaceModel& model_;
+  const PatchTree& tree_;
+  double hausd_, small_;
+};
+
+/// The model's patches, measured from the output.
+class FromOutput {
+ public:
+  /// \param small bounds that will do at first
+  FromOutput(const OutputSurface& out, const SurfaceModel& model, const FacetTree& tree,
+             double small)
+      : model_(model), tree_(tree), small_(small), near_(model.facets(), kNone) {
+    for (std::size_t t = 0; t < out.facets.size(); ++t)
+      if (const std::int32_t f = out.facets[t]; f >= 0 && std::size_t(f) < near_.size())
+        near_[std::size_t(f)] = tree.hint_at(std::int32_t(t)).slot;
+  }
+
+  struct Near {
+    std::int32_t slot = kNone;
+    double small = -1;  ///< bounds that will do
+  };
+
+  void begin(std::size_t f, Near& near) const { near = {near_[f], small_}; }
+  void widen(std::size_t, Near& near) const { near.small = -1; }
+
+  Vec3 at(std::size_t f, double u, double v) const { return patch(f).at(u, v); }
+
+  void bound(std::size_t f, const Lattice::Block& block, const Near& near,
+             std::vector<Measured>& measured) const {
+    PointBlock points;
+    patch(f).at(block.count, block.u, block.v, points);
+    const Box box = points.box();
+    const double hausd = model_.hausd(std::int32_t(f)), reach = reach_around(box, hausd);
+    NearestOfBlock nearest;
+    const bool all = tree_.nearest(points, box, near.slot, reach, near.small, nearest);
+    for (std::size_t i = 0; i < block.count; ++i) {
+      Measured& m = measured[std::size_t(block.place[i])];
+      m = result(f, nearest.distance2(i), nearest.number(i));
+      m.exact = all && nearest.distance2(i) < reach * reach;
+    }
+  }
+
+  Measured exact(std::size_t f, const Vec3& x, const Measured& from, double small) const {
+    NearestFacet hint;
+    hint.slot = from.slot;
+    const NearestFacet r = tree_.nearest_from(x, hint, small);
+    return result(f, r.distance2, r.slot);
+  }
+
+ private:
+  const BezierTriangle& patch(std::size_t f) const {
+    return model_.patch_of_facet(std::int32_t(f));
+  }
+  Measured result(std::size_t f, double distance2, std::int32_t slot) const {
+    return {std::sqrt(distance2), model_.hausd(std::int32_t(f)),
+            slot == kNone ? kNone : tree_.triangle(slot), slot};
+  }
+
+  const SurfaceModel& model_;
+  const FacetTree& tree_;
+  double small_;
+  std::vector<std::int32_t> near_;  ///< slot of a triangle that is likely to be near
+};
 
 bool is_before(const Corners& a, const Corners& b) {
   auto key = [](const Corners& t) {
@@ -339,8 +293,9 @@ Box reach_of(const BezierTriangle& patch, double farthest) {
 
 double measure_bulge(const SurfaceModel& model) {
   // A cubic patch is smooth: its highest place is missed by little between so many samples.
-  constexpr int kBulgeIntervals = 6;
+  const Lattice lattice(6);
   constexpr std::size_t kBatch = 1024;  // after which those that cannot be higher are left out
+  constexpr std::size_t kGrain = 32;
   const std::vector<Corners> facets = facets_of(model);
   std::vector<std::pair<double, std::size_t>> highest_first(facets.size());
   parallel_for(facets.size(), [&](std::size_t f) {
@@ -351,14 +306,14 @@ double measure_bulge(const SurfaceModel& model) {
   std::vector<double> bulge2(facets.size(), 0);
   const auto sample = [&](std::size_t f) {
     const Corners& own = facets[f];
-    for_each_sample(kBulgeIntervals, [&](double u, double v) {
+    for (const auto& [u, v] : lattice.places()) {
       const Vec3 x = model.patch_of_facet(std::int32_t(f)).at(u, v);
       // The other facets matter only to a sample that would raise the largest distance.
       double d2 = closest_on_triangle(x, own[0], own[1], own[2]).distance2;
-      if (d2 <= bulge2[f]) return;
+      if (d2 <= bulge2[f]) continue;
       if (const NearestFacet r = tree.nearest(x, d2); r.facet != kNone) d2 = r.distance2;
       bulge2[f] = std::max(bulge2[f], d2);
-    });
+    }
   };
   double bulge = 0;
   for (std::size_t begin = 0; begin < facets.size(); begin += kBatch) {
@@ -374,7 +329,12 @@ double measure_bulge(const SurfaceModel& model) {
 
 struct DistanceMeter::Memory {
   Memory(const SurfaceModel& m, const DistanceSampling& s)
-      : model(m), sampling(s), tree(m), facets(facets_of(m)), of_model(facets.size()) {}
+      : model(m),
+        sampling(s),
+        least_hausd(least_hausd_of(m)),
+        tree(m),
+        facets(facets_of(m)),
+        of_model(facets.size()) {}
 
   void forget_what_changed(OutputSurface now) {
     const Changes changes(out.corners, now.corners);
@@ -398,8 +358,10 @@ struct DistanceMeter::Memory {
 
   const SurfaceModel& model;
   DistanceSampling sampling;
+  double least_hausd;
   PatchTree tree;
   std::vector<Corners> facets;
+  Lattices lattices;
   OutputSurface out;
   std::vector<Sampled> of_out, of_model;
 };
@@ -414,8 +376,14 @@ SurfaceDistance DistanceMeter::measure(const TetMesh& mesh) {
   OutputSurface now(mesh);
   prefer_own_facets(m.facets, now);
   m.forget_what_changed(std::move(now));
-  sample_output(m.out, m.model, m.tree, m.sampling, m.of_out);
-  sample_model(m.out, m.model, m.facets, m.sampling, m.of_model);
+  const double small = m.sampling.enough * m.least_hausd;
+  const FromModel from_model(m.out, m.model, m.tree, m.least_hausd, small);
+  Sampler(m.out.corners, m.sampling, m.lattices, m.least_hausd, true, from_model)
+      .sample_all(m.of_out);
+  const FacetTree tree(m.out.corners);
+  const FromOutput from_output(m.out, m.model, tree, small);
+  Sampler(m.facets, m.sampling, m.lattices, m.least_hausd, false, from_output)
+      .sample_all(m.of_model);
   SurfaceDistance result;
   result.out_to_model = fold(m.of_out, m.sampling);
   result.far_triangles = beyond(

@@ -1,16 +1,22 @@
 #include "cavea/surface/facet_tree.h"
 
+#include <algorithm>
+
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/closest.h"
 
 namespace cavea {
 namespace {
 
+Box box_of(const Corners& triangle) {
+  Box box;
+  for (const Vec3& p : triangle) box.add(p);
+  return box;
+}
+
 std::vector<Box> boxes_of(std::span<const Corners> triangles) {
   std::vector<Box> boxes(triangles.size());
-  parallel_for(triangles.size(), [&](std::size_t i) {
-    for (const Vec3& p : triangles[i]) boxes[i].add(p);
-  });
+  parallel_for(triangles.size(), [&](std::size_t i) { boxes[i] = box_of(triangles[i]); });
   return boxes;
 }
 
@@ -42,6 +48,27 @@ NearestFacet FacetTree::nearest(const Vec3& p, double bound2) const {
   improve(p, best);
   if (best.facet == kNone) best = {};
   return best;
+}
+
+bool FacetTree::nearest(const PointBlock& points, const Box& box, std::int32_t hint, double reach,
+                        double small, NearestOfBlock& nearest) const {
+  nearest.clear(points.size());
+  ClosestOfBlock closest;
+  const auto look = [&](std::size_t slot) {
+    const Corners& t = triangles_[slot];
+    closest_on_triangle(points, t[0], t[1], t[2], closest);
+    nearest.improve(closest.distance2, std::int32_t(slot));
+  };
+  if (hint != kNone) look(std::size_t(hint));
+  if (small >= 0 && nearest.largest2() <= small * small) return false;
+  const double reach2 = reach * reach;
+  double bound2 = std::min(reach2, nearest.largest2());
+  tree_.visit_near(box, bound2, [&](std::size_t slot) {
+    if (std::int32_t(slot) == hint || box_of(triangles_[slot]).distance2(box) >= bound2) return;
+    look(slot);
+    bound2 = std::min(reach2, nearest.largest2());
+  });
+  return true;
 }
 
 NearestFacet FacetTree::hint_at(std::int32_t triangle) const {

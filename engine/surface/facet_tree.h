@@ -7,6 +7,7 @@
 
 #include "cavea/base/ids.h"
 #include "cavea/geometry/box_tree.h"
+#include "cavea/geometry/point_block.h"
 
 namespace cavea {
 
@@ -34,6 +35,15 @@ class FacetTree {
   /// The same without bound, sooner where `hint`, found for another point, is near to p too.
   /// \param small the hint's triangle will do if it is so near
   NearestFacet nearest_from(const Vec3& p, const NearestFacet& hint, double small = -1) const;
+
+  /// The triangles nearest to the points of a block, where one is nearer than `reach`; where none
+  /// is, one that need not be the nearest, or none.
+  /// \param box of the points \param hint a triangle's slot, or none: that one alone will do if no
+  /// point is farther from it than `small` \return whether the others have been looked at
+  bool nearest(const PointBlock& points, const Box& box, std::int32_t hint, double reach,
+               double small, NearestOfBlock& nearest) const;
+  /// The triangle in a slot.
+  std::int32_t triangle(std::int32_t slot) const { return tree_.order()[std::size_t(slot)]; }
 
   /// A hint where the place is thought to be on or near the triangle; none where that is kNone.
   NearestFacet hint_at(std::int32_t triangle) const;

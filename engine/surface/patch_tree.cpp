@@ -87,6 +87,36 @@ PatchTree::PatchTree(const SurfaceModel& model)
   });
 }
 
+bool PatchTree::Leaf::is_within(double reach, const Box& box) const {
+  Box facet;
+  for (const Vec3& p : corner) facet.add(p);
+  const double by = reach + bulge;
+  return facet.distance2(box) <= by * by;
+}
+
+void PatchTree::near(const Box& box, double reach, std::vector<std::int32_t>& slots) const {
+  tree_.visit_overlapping(box.widened(reach), [&](std::size_t slot) {
+    if (leaves_[slot].is_within(reach, box)) slots.push_back(std::int32_t(slot));
+  });
+}
+
+void PatchTree::improve(const PointBlock& points, const Box& box, std::int32_t slot,
+                        NearestOfBlock& nearest) const {
+  const Leaf& leaf = leaves_[std::size_t(slot)];
+  if (!leaf.is_within(std::sqrt(nearest.largest2()), box)) return;
+  ClosestOfBlock flat;
+  closest_on_triangle(points, leaf.corner[0], leaf.corner[1], leaf.corner[2], flat);
+  if (!nearest.may_improve(flat.distance2, leaf.bulge)) return;
+  PointBlock on;
+  patch(std::size_t(slot)).at(points.size(), flat.u, flat.v, on);
+  alignas(64) PointBlock::Row d2;
+  for (std::size_t i = 0; i < points.groups() * PointBlock::kGroup; ++i) {
+    const double x = on.x[i] - points.x[i], y = on.y[i] - points.y[i], z = on.z[i] - points.z[i];
+    d2[i] = x * x + y * y + z * z;
+  }
+  nearest.improve(d2, slot);
+}
+
 NearestOnModel PatchTree::hint_at(std::int32_t facet) const {
   NearestOnModel hint;
   if (facet >= 0 && std::size_t(facet) < slots_.size()) hint.slot = slots_[std::size_t(facet)];

@@ -5,6 +5,7 @@
 
 #include "cavea/base/ids.h"
 #include "cavea/geometry/box_tree.h"
+#include "cavea/geometry/point_block.h"
 #include "cavea/surface/surface_model.h"
 
 namespace cavea {
@@ -43,6 +44,15 @@ class PatchTree {
   /// too. \param small any place of the hint's patch that is so near will do
   NearestOnModel nearest(const Vec3& p, const NearestOnModel& hint = {}, double small = -1) const;
 
+  /// Slots of the facets of which a place may be in a box, or nearer to it than `reach`.
+  void near(const Box& box, double reach, std::vector<std::int32_t>& slots) const;
+
+  /// Sees which points of a block are near to a facet's patch: bounds of the distances of what
+  /// search would find, little above them where the patch bulges little. \param box of the points
+  void improve(const PointBlock& points, const Box& box, std::int32_t slot,
+               NearestOfBlock& nearest) const;
+  std::int32_t facet(std::int32_t slot) const { return tree_.order()[std::size_t(slot)]; }
+
   /// A hint where the place is thought to be on or near the facet; none where there is no such
   /// facet.
   NearestOnModel hint_at(std::int32_t facet) const;
@@ -51,6 +61,9 @@ class PatchTree {
   struct Leaf {
     std::array<Vec3, 3> corner;
     double bulge;  ///< no place of the patch is farther from the flat facet
+
+    /// Whether a place of the patch may be so near to the box; false if surely none is.
+    bool is_within(double reach, const Box& box) const;
   };
   const BezierTriangle& patch(std::size_t slot) const {
     return model_.patch_of_facet(tree_.order()[slot]);

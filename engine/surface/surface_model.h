@@ -71,6 +71,11 @@ class SurfaceModel {
   std::array<Vec3, 2> curve_ends(std::int32_t e) const {
     return {points_[curves_[e].v[0]], points_[curves_[e].v[1]]};
   }
+  /// The facets that meet at a feature curve's edge.
+  std::span<const std::int32_t> facets_at_curve(std::int32_t e) const {
+    const CurveEdge& c = curves_[std::size_t(e)];
+    return {curve_facets_.data() + c.first_facet, std::size_t(c.facet_count)};
+  }
   /// The anchor of the corner nearest to a place, if one is within reach.
   std::optional<Anchor> corner_near(const Vec3& place, double reach) const;
   int patch_number(std::int32_t f) const { return facet_patch_[f]; }
@@ -88,6 +93,7 @@ class SurfaceModel {
   void add_spots(const std::vector<Spot>& spots);
 
   static std::int32_t curve_anchor(std::int32_t edge) { return -2 - edge; }
+  static std::int32_t curve_of(std::int32_t anchored_facet) { return -2 - anchored_facet; }
   static bool is_curve(const Anchor& a) { return a.facet <= -2; }
 
  private:

@@ -1,0 +1,284 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "cavea/base/ids.h"
+#include "cavea/base/parallel.h"
+#include "cavea/surface/distance.h"
+#include "cavea/surface/facet_tree.h"
+#include "cavea/surface/lattice.h"
+
+namespace cavea {
+
+inline double longest_edge2(const Corners& t) {
+  return std::max({distance2(t[0], t[1]), distance2(t[1], t[2]), distance2(t[2], t[0])});
+}
+
+/// A sample's distance, or a bound above it, and hausd at the facet that it is from or to.
+struct Measured {
+  double distance = std::numeric_limits<double>::infinity(), hausd = 1;
+  std::int32_t triangle = kNone;  ///< of the output, that it is from or to
+  std::int32_t slot = kNone;      ///< where the search ended, which may begin another
+  bool exact = false;
+};
+
+/// What the samples of one triangle say, or bounds above it.
+struct Sampled {
+  double max = -1, worst = -1, hausd = 0, sum = 0, area = 0;
+  Vec3 where;
+  std::int32_t triangle = kNone;
+  int count = 0;
+  int intervals = 0;  ///< of the lattice
+  bool exact = false;
+
+  void add(const Vec3& x, const Measured& m) {
+    max = std::max(max, m.distance);
+    if (m.distance > worst * m.hausd) {
+      worst = m.distance / m.hausd, hausd = m.hausd;
+      where = x, triangle = m.triangle;
+    }
+    sum += m.distance;
+    ++count;
+  }
+  /// A bound is no place to go to.
+  void add_bound(const Measured& m, double least_hausd) {
+    max = std::max(max, m.distance);
+    if (m.distance > worst * least_hausd) worst = m.distance / least_hausd, triangle = m.triangle;
+    ++count;
+  }
+};
+
+/// Samples the triangles of one surface. A `Side` knows the other surface:
+///   Near                              what of it is looked at for one triangle
+///   begin(t, near), widen(t, near)    sets that to what is likely to be nearest; to all around
+///   at(t, u, v)                       a place of the triangle
+///   bound(t, block, near, measured)   bounds, or exact distances, of a block of places
+///   exact(t, x, from, small)          the distance of one; if at most `small`, a bound will do
+/// None uses what it found for another triangle: which that is depends on the threads.
+template <class Side>
+class Sampler {
+ public:
+  /// \param may_stop where the first samples are all near: not where the triangle is far larger
+  /// than those of the other surface
+  Sampler(std::span<const Corners> triangles, const DistanceSampling& sampling,
+          const Lattices& lattices, double least_hausd, bool may_stop, const Side& side)
+      : triangles_(triangles),
+        sampling_(sampling),
+        lattices_(lattices),
+        least_hausd_(least_hausd),
+        may_stop_(may_stop),
+        side_(side) {}
+
+  /// Bounds first, which are near; then what is as far as others is looked at, the farthest first,
+  /// until no bound is above the largest distance. Those that have samples keep them.
+  void sample_all(std::vector<Sampled>& samples) const {
+    parallel_ranges(samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      Scratch scratch;
+      for (std::size_t t = begin; t < end; ++t)
+        if (samples[t].count == 0)
+          samples[t] = sample(t, all_exact() ? kEverything : kBoundsOnly, 0, scratch);
+    });
+    if (!all_exact()) make_exact_what_matters(samples);
+  }
+
+ private:
+  /// Triangles a task: their cost differs by their samples.
+  static constexpr std::size_t kGrain = 32;
+  /// Between the samples of a triangle that are so many hausd away there may be one beyond 1.
+  static constexpr double kNearLimit = 0.75;
+
+  /// What is not beyond these need not be exact.
+  struct Floor {
+    double max, worst;
+    bool is_exceeded_by(const Sampled& s) const { return s.max > max || s.worst > worst; }
+  };
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  static constexpr Floor kBoundsOnly{kInfinity, kInfinity}, kEverything{-1, -1};
+
+  struct Scratch {
+    typename Side::Near near;
+    std::vector<Measured> measured;  ///< by the places of a lattice
+  };
+
+  bool all_exact() const { return sampling_.enough == 0; }
+
+  int intervals(std::size_t t) const {
+    const double wanted = std::ceil(std::sqrt(longest_edge2(triangles_[t])) / sampling_.step);
+    return int(std::clamp<double>(wanted, Lattice::kMinIntervals, Lattice::kMaxIntervals));
+  }
+
+  Vec3 at(std::size_t t, const Lattice::Place& p) const { return side_.at(t, p.u, p.v); }
+
+  void bound(std::size_t t, const Lattice& lattice, Scratch& s) const {
+    s.measured.resize(lattice.places().size());
+    for (const Lattice::Block& block : lattice.blocks()) side_.bound(t, block, s.near, s.measured);
+  }
+
+  /// \param n intervals of the lattice, if known: then nothing is asked that may not do
+  Sampled sample(std::size_t t, const Floor& floor, int n, Scratch& scratch) const {
+    side_.begin(t, scratch.near);
+    if (n > 0) {
+      side_.widen(t, scratch.near);
+      bound(t, lattices_[n], scratch);
+    } else {
+      n = intervals(t);
+      if (n > Lattice::kMinIntervals && may_stop_ && !all_exact() && are_first_near(t, scratch))
+        n = Lattice::kMinIntervals;
+      else
+        bound(t, lattices_[n], scratch);
+    }
+    return resolve(t, lattices_[n], floor, scratch);
+  }
+
+  /// Measures the first samples so far that this is sure.
+  bool are_first_near(std::size_t t, Scratch& s) const {
+    const double near = sampling_.enough * least_hausd_;
+    const auto is_near = [&](const Measured& m) { return m.distance <= near; };
+    bound(t, lattices_.coarsest(), s);
+    if (std::ranges::all_of(s.measured, is_near)) return true;
+    side_.widen(t, s.near);
+    bound(t, lattices_.coarsest(), s);
+    for (;;) {
+      const std::size_t i = farthest_bound(s.measured);
+      if (i == s.measured.size() || is_near(s.measured[i])) return true;
+      Measured& m = s.measured[i];
+      m = side_.exact(t, at(t, lattices_.coarsest().places()[i]), m, near);
+      m.exact = m.distance > near;
+      if (m.distance > sampling_.enough * m.hausd) return false;
+    }
+  }
+
+  /// Of those that are not exact; their number if all are.
+  static std::size_t farthest_bound(const std::vector<Measured>& all) {
+    std::size_t farthest = all.size();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!all[i].exact && (farthest == all.size() || all[i].distance > all[farthest].distance))
+        farthest = i;
+    return farthest;
+  }
+
+  /// Makes exact what is beyond the floor, and then all that raises the triangle's maximum.
+  Sampled resolve(std::size_t t, const Lattice& lattice, Floor floor, Scratch& scratch) const {
+    std::vector<Measured>& measured = scratch.measured;
+    Sampled s;
+    for (const Measured& m : measured)
+      if (m.exact) s.add({}, m);
+    bool done = false;
+    for (;;) {
+      const std::size_t i = farthest_bound(measured);
+      const double small =
+          std::min(std::max(floor.max, s.max), std::max(floor.worst, s.worst) * least_hausd_);
+      done = done || i == measured.size();
+      if (i == measured.size() || (!all_exact() && measured[i].distance <= small)) {
+        if (done || !floor.is_exceeded_by(s)) break;
+        floor = kEverything, done = true;
+        continue;
+      }
+      Measured& m = measured[i];
+      const Vec3 x = at(t, lattice.places()[i]);
+      m = side_.exact(t, x, m, all_exact() ? -1 : small);
+      m.exact = all_exact() || m.distance > small;
+      if (m.exact) s.add(x, m);
+    }
+    return summary(t, lattice, done, scratch);
+  }
+
+  Sampled summary(std::size_t t, const Lattice& lattice, bool exact, Scratch& scratch) const {
+    const std::vector<Measured>& measured = scratch.measured;
+    Sampled s;
+    Lattice::Place worst_at;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      const double before = s.worst;
+      const Lattice::Place& p = lattice.places()[i];
+      if (!measured[i].exact) {
+        if (!exact) s.add_bound(measured[i], least_hausd_);
+        continue;
+      }
+      s.add(at(t, p), measured[i]);
+      if (s.worst > before) worst_at = p;
+    }
+    s.exact = exact;
+    s.intervals = lattice.intervals();
+    if (exact && s.worst > kNearLimit) climb(t, worst_at, 0.5 / s.intervals, scratch, s);
+    const Corners& k = triangles_[t];
+    s.area = norm(cross(k[1] - k[0], k[2] - k[0])) / 2;
+    return s;
+  }
+
+  /// Adds samples around the worst one of a triangle, nearer and nearer, and around what is worse
+  /// then.
+  void climb(std::size_t t, Lattice::Place worst_at, double step, Scratch& scratch,
+             Sampled& s) const {
+    constexpr int kHalvings = 3;
+    constexpr int kDirections[][2] = {{1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {-1, 0}};
+    std::vector<Lattice::Place> places;
+    for (int k = 0; k < kHalvings; ++k, step /= 2) {
+      places.clear();
+      for (const auto& [i, j] : kDirections) {
+        const Lattice::Place p{worst_at.u + i * step, worst_at.v + j * step};
+        if (p.u >= 0 && p.v >= 0 && p.u + p.v <= 1) places.push_back(p);
+      }
+      if (places.empty()) continue;
+      scratch.measured.resize(places.size());
+      side_.bound(t, Lattice::block_of(places), scratch.near, scratch.measured);
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const double before = s.worst, small = std::min(s.max, s.worst * least_hausd_);
+        const Vec3 x = at(t, places[i]);
+        Measured m = scratch.measured[i];
+        if (!m.exact && (all_exact() || m.distance > small))
+          m = side_.exact(t, x, m, all_exact() ? -1 : small);
+        s.add(x, m);
+        if (s.worst > before) worst_at = places[i];
+      }
+    }
+  }
+
+  void make_exact_what_matters(std::vector<Sampled>& samples) const {
+    // After each batch those that cannot be farther are left out: the first ones tell most.
+    constexpr std::size_t kFirstBatch = 64, kMostInBatch = 1024;
+    const double always = std::min(kNearLimit, sampling_.most);
+    double max = -1, worst = -1;
+    std::vector<std::size_t> open;
+    for (std::size_t t = 0; t < samples.size(); ++t)
+      if (const Sampled& s = samples[t]; !s.exact)
+        open.push_back(t);
+      else
+        max = std::max(max, s.max), worst = std::max(worst, s.worst);
+    auto is_farther = [&](std::size_t a, std::size_t b) {
+      return std::tie(samples[b].worst, a) < std::tie(samples[a].worst, b);
+    };
+    for (std::size_t batch = kFirstBatch;; batch = std::min(2 * batch, kMostInBatch)) {
+      const Floor floor{max, std::min(worst, always)};
+      std::erase_if(open, [&](std::size_t t) {
+        return samples[t].exact || !floor.is_exceeded_by(samples[t]);
+      });
+      if (open.empty()) return;
+      const auto end = open.begin() + std::ptrdiff_t(std::min(batch, open.size()));
+      std::partial_sort(open.begin(), end, open.end(), is_farther);
+      const std::size_t count = std::size_t(end - open.begin());
+      parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
+        Scratch scratch;
+        for (std::size_t i = first; i < last; ++i)
+          samples[open[i]] = sample(open[i], floor, samples[open[i]].intervals, scratch);
+      });
+      for (auto t = open.begin(); t != end; ++t)
+        if (samples[*t].exact)
+          max = std::max(max, samples[*t].max), worst = std::max(worst, samples[*t].worst);
+    }
+  }
+
+  std::span<const Corners> triangles_;
+  const DistanceSampling& sampling_;
+  const Lattices& lattices_;
+  double least_hausd_;
+  bool may_stop_;
+  const Side& side_;
+};
+
+}  // namespace cavea
