@@ -82,6 +82,7 @@ constexpr std::size_t kFew = 64;
 std::vector<TetId> active_tets(const TetMesh& m, const CycleSettings& settings) {
   std::vector<TetId> asked =
       ids_where(m.tets.size(), [&](TetId t) { return is_asked(m, std::size_t(t), settings); });
+  if (asked.size() == m.tets.size()) return asked;
   return kFew * asked.size() < m.tets.size() ? with_layers_of_few(m, std::move(asked))
                                              : with_layers_of_many(m, asked);
 }
@@ -100,7 +101,7 @@ std::size_t count_holes(const TetMesh& m) {
 /// \param part_of by tet, kept in step
 void remove_holes(TetMesh& m, std::vector<std::int32_t>& part_of) {
   if (kFew * count_holes(m) < m.tets.size()) return fill_holes(m, &part_of);
-  part_of = living_tets(m).kept_of(part_of);
+  living_tets(m).keep_in(part_of);
   compact(m);
 }
 
@@ -137,10 +138,13 @@ std::vector<std::int32_t> label_parts(const TetMesh& m, const std::vector<TetId>
 
 /// Lets a mesh of which much is in the parts grow a little without being moved while they are held.
 void make_room(TetMesh& m, std::size_t active) {
-  constexpr std::size_t kMuch = 4, kShare = 8;  // rounds of fine and polish add fewer
+  // Rounds of fine and polish add fewer than the least. What has room is left where it is.
+  constexpr std::size_t kMuch = 4, kLeastShare = 16, kShare = 8;
   if (kMuch * active < m.tets.size()) return;
-  m.reserve_vertices(m.points.size() + m.points.size() / kShare);
-  m.reserve_tets(m.tets.size() + m.tets.size() / kShare);
+  const auto with = [](std::size_t n, std::size_t share) { return n + n / share; };
+  const std::size_t vertices = m.points.size(), tets = m.tets.size();
+  if (m.points.capacity() < with(vertices, kLeastShare)) m.reserve_vertices(with(vertices, kShare));
+  if (m.tets.capacity() < with(tets, kLeastShare)) m.reserve_tets(with(tets, kShare));
 }
 
 RoundResult run_whole(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings) {
