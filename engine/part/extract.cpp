@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -93,6 +94,42 @@ struct Whole {
   std::vector<std::vector<std::array<std::int32_t, 2>>> cut_faces;
 };
 
+/// The local ids of a part's shared vertices: an open hash table.
+class SharedIds {
+ public:
+  /// The different ones of the vertices, ascending. They have ids from `first` on. \pre called once
+  std::vector<VertexId> take(const std::vector<VertexId>& vertices, VertexId first) {
+    table_.assign(std::bit_ceil(vertices.size() + 1), {});
+    shift_ = 32 - int(std::bit_width(table_.size() - 1));
+    std::vector<VertexId> different;
+    for (const VertexId v : vertices) {
+      Entry& entry = table_[place_of(v)];
+      if (entry.vertex == v) continue;
+      entry.vertex = v;
+      different.push_back(v);
+    }
+    std::sort(different.begin(), different.end());
+    for (const VertexId v : different) table_[place_of(v)].local = first++;
+    return different;
+  }
+  VertexId operator[](VertexId v) const { return table_[place_of(v)].local; }
+
+ private:
+  struct Entry {
+    VertexId vertex = kNone, local = kNone;
+  };
+  /// Where the vertex is, or belongs; there is always an empty entry.
+  std::size_t place_of(VertexId v) const {
+    constexpr std::uint32_t kGoldenRatio = 0x9e3779b9;  // Knuth's multiplicative hashing
+    std::size_t i = shift_ < 32 ? (std::uint32_t(v) * kGoldenRatio) >> shift_ : 0;
+    while (table_[i].vertex != v && table_[i].vertex != kNone) i = (i + 1) & (table_.size() - 1);
+    return i;
+  }
+
+  std::vector<Entry> table_;
+  int shift_ = 32;
+};
+
 class Extraction {
  public:
   Extraction(Whole& whole, int number, Part& part)
@@ -118,20 +155,17 @@ class Extraction {
   VertexId local_vertex(VertexId v) const {
     const Place place = whole_.vertices.place(v);
     if (place.key != kShared) return place.local;
-    const auto& s = part_.shared_vertices;
-    return VertexId(part_.own_vertices.size()) +
-           VertexId(std::lower_bound(s.begin(), s.end(), v) - s.begin());
+    return shared_ids_[v];
   }
 
   void take_vertices() {
     const auto own = whole_.vertices.of(std::size_t(number_));
     part_.own_vertices.assign(own.begin(), own.end());
-    auto& shared = part_.shared_vertices;
+    std::vector<VertexId> of_tets;
     for (std::uint32_t t : tets_)
       for (VertexId v : whole_.mesh.tets[t])
-        if (whole_.vertices.place(v).key == kShared) shared.push_back(v);
-    std::sort(shared.begin(), shared.end());
-    shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
+        if (whole_.vertices.place(v).key == kShared) of_tets.push_back(v);
+    const auto& shared = part_.shared_vertices = shared_ids_.take(of_tets, VertexId(own.size()));
     part_.mesh.resize_vertices(own.size() + shared.size());
     for (std::size_t i = 0; i < own.size(); ++i) take_vertex(i, VertexId(own[i]), 0);
     for (std::size_t i = 0; i < shared.size(); ++i)
@@ -221,6 +255,7 @@ class Extraction {
   const std::int32_t number_;
   Part& part_;
   const std::span<const std::uint32_t> tets_;
+  SharedIds shared_ids_;
 };
 
 /// Finds for each cut the cut of the other part on the same face, or the idle face.

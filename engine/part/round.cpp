@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <utility>
 
 #include "cavea/base/ids_where.h"
 #include "cavea/base/parallel.h"
@@ -164,7 +165,9 @@ int part_count(std::int64_t tets) {
 
 RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings,
                       std::vector<std::int32_t>* part_of_tet) {
-  const std::vector<TetId> active = active_tets(mesh, settings);
+  // Memory that is not to be held beside the parts is given back; an empty list would keep it.
+  if (part_of_tet) *part_of_tet = std::vector<std::int32_t>();
+  std::vector<TetId> active = active_tets(mesh, settings);
   if (active.empty()) {
     if (part_of_tet) part_of_tet->assign(mesh.tets.size(), kIdle);
     return {{}, 0};
@@ -176,7 +179,9 @@ RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
     return result;
   }
   make_room(mesh, active.size());
-  std::vector<Part> parts = extract_parts(mesh, label_parts(mesh, active, count), count);
+  std::vector<std::int32_t> labels = label_parts(mesh, active, count);
+  active = std::vector<TetId>();
+  std::vector<Part> parts = extract_parts(mesh, std::exchange(labels, {}), count);
   std::vector<CycleResult> results(parts.size());
   // Largest first, so that the last to finish is small.
   std::vector<std::size_t> order(parts.size());
