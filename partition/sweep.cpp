@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
 #include "cavea/base/atomic.h"
+#include "cavea/base/ids_where.h"
 #include "cavea/base/parallel.h"
 #include "cavea/partition/blocks.h"
 
@@ -22,32 +25,43 @@ constexpr double kMostShare = 1.1;
 class Sweep {
  public:
   Sweep(const Items& items, std::vector<std::int32_t>& labels, std::vector<std::int64_t>& part_work)
-      : items_(items), labels_(labels), part_work_(part_work), next_(labels.size()) {
+      : items_(items), labels_(labels), part_work_(part_work), near_(labels.size()) {
     std::int64_t total = 0;
     for (const std::int64_t w : part_work) total += w;
     const double mean = double(total) / double(part_work.size());
     most_ = mean * kMostShare;
     least_ = mean * (2 - kMostShare);
+    parallel_for(near_.size(), [&](std::size_t i) { near_[i] = is_at_cut(std::int32_t(i)); });
   }
 
   void run(const Blocks& blocks, bool upwards) {
     const std::vector<std::int64_t> before = part_work_;
-    parallel_for(labels_.size(), [&](std::size_t i) {
-      const auto item = static_cast<std::int32_t>(i);
-      const std::int32_t from = labels_[i], to = choose(item, upwards, before);
-      next_[i] = to;
-      if (to == from) return;
+    const std::vector<std::int32_t> asked =
+        ids_where(near_.size(), [&](std::int32_t i) { return near_[i] != 0; });
+    std::vector<std::int32_t> to(asked.size());
+    parallel_for(asked.size(), [&](std::size_t k) { to[k] = choose(asked[k], upwards, before); });
+    parallel_for(asked.size(), [&](std::size_t k) {
+      const std::int32_t item = asked[k], from = labels_[item];
+      if (to[k] == from) return;
+      labels_[item] = to[k];
       const std::int64_t work = blocks.item_work(item);
       atomic_add(part_work_[from], -work);
-      atomic_add(part_work_[to], work);
+      atomic_add(part_work_[to[k]], work);
+      for (const std::int32_t j : items_.neighbours[item])
+        if (j >= 0) std::atomic_ref(near_[j]).store(1, std::memory_order_relaxed);
     });
-    labels_.swap(next_);
   }
 
  private:
   bool may_move(std::int32_t from, std::int32_t to, bool upwards,
                 const std::vector<std::int64_t>& work) const {
     return (to > from) == upwards && double(work[to])<most_&& double(work[from])> least_;
+  }
+
+  bool is_at_cut(std::int32_t item) const {
+    return std::ranges::any_of(items_.neighbours[item], [&](std::int32_t j) {
+      return j >= 0 && labels_[j] != labels_[item];
+    });
   }
 
   /// The part that the item goes to: its own unless another has more of its face weight.
@@ -83,7 +97,7 @@ class Sweep {
   const Items& items_;
   std::vector<std::int32_t>& labels_;
   std::vector<std::int64_t>& part_work_;
-  std::vector<std::int32_t> next_;
+  std::vector<std::uint8_t> near_;  ///< 0 for items that have none of another part around them
   double most_ = 0, least_ = 0;
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -6,22 +7,26 @@
 
 namespace cavea {
 
-/// The ids of [0, n) for which is(id), ascending.
+/// The ids of [0, n) for which is(id), ascending. It is asked twice for each.
 template <class Is>
 std::vector<std::int32_t> ids_where(std::size_t n, Is&& is) {
-  using Ids = std::vector<std::int32_t>;
-  return parallel_reduce(
-      n, Ids{},
-      [&](std::size_t begin, std::size_t end) {
-        Ids ids;
-        for (std::size_t i = begin; i < end; ++i)
-          if (is(std::int32_t(i))) ids.push_back(std::int32_t(i));
-        return ids;
+  const auto for_each_in = [&](std::size_t block, auto&& f) {
+    const std::size_t end = std::min(n, (block + 1) * kReduceBlock);
+    for (std::size_t i = block * kReduceBlock; i < end; ++i)
+      if (is(std::int32_t(i))) f(std::int32_t(i));
+  };
+  std::vector<std::size_t> next((n + kReduceBlock - 1) / kReduceBlock, 0);
+  parallel_for(
+      next.size(), [&](std::size_t b) { for_each_in(b, [&](std::int32_t) { ++next[b]; }); }, 1);
+  std::vector<std::int32_t> ids(exclusive_scan(next));
+  parallel_for(
+      next.size(),
+      [&](std::size_t b) {
+        std::int32_t* to = ids.data() + next[b];
+        for_each_in(b, [&](std::int32_t id) { *to++ = id; });
       },
-      [](Ids all, const Ids& more) {
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
-      });
+      1);
+  return ids;
 }
 
 }  // namespace cavea

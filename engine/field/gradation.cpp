@@ -5,6 +5,7 @@
 
 #include "cavea/base/atomic.h"
 #include "cavea/base/parallel.h"
+#include "cavea/mesh/edge_shares.h"
 
 namespace cavea {
 namespace {
@@ -28,7 +29,9 @@ void relax_edges(const TetMesh& mesh, Relax&& relax) {
       for (VertexId k : v)
         active |= std::atomic_ref(changed[k]).load(std::memory_order_relaxed) >= sweep - 1;
       if (!active) return;
+      const EdgeShare share(mesh, TetId(t));
       for (const auto& e : kEdgeVertices) {
+        if (!share.has(e)) continue;
         const VertexId a = v[e[0]], b = v[e[1]];
         const auto length2 = [&] { return distance2(mesh.points[a], mesh.points[b]); };
         if (relax(a, b, length2)) stamp(b, sweep);

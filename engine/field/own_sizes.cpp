@@ -5,6 +5,7 @@
 
 #include "cavea/field/mean_lengths.h"
 #include "cavea/field/mesh_size_field.h"
+#include "cavea/mesh/edge_shares.h"
 
 namespace cavea {
 namespace {
@@ -41,7 +42,11 @@ bool has_required_edges(const TetMesh& m) {
 }  // namespace
 
 std::vector<float> mean_edge_lengths(const TetMesh& mesh) {
-  return mean_lengths(mesh, [&](TetId t, auto&& f) { for_each_edge(mesh, t, f); });
+  return mean_lengths(mesh, [&](TetId t, auto&& f) {
+    const EdgeShare share(mesh, t);
+    for (const auto& e : kEdgeVertices)
+      if (share.has(e)) f(mesh.tets[t][e[0]], mesh.tets[t][e[1]]);
+  });
 }
 
 SizeField own_sizes(TetMesh mesh) {

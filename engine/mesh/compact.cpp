@@ -5,11 +5,6 @@
 namespace cavea {
 namespace {
 
-template <class T>
-void keep(const Renumbering& ids, std::vector<T>& array) {
-  array = ids.kept_of(array);
-}
-
 FaceLink renumbered(FaceLink link, const Renumbering& tets, const Renumbering& triangles) {
   if (link.is_tet()) return FaceLink::to_tet(tets[link.tet()], link.face());
   if (link.is_triangle()) return FaceLink::to_triangle(triangles[link.triangle()]);
@@ -24,19 +19,18 @@ void compact(TetMesh& mesh) {
   if (vertices.count == mesh.points.size() && tets.count == mesh.tets.size() &&
       triangles.count == mesh.triangles.size())
     return;
-  // One array at a time, so that no more than one is held twice.
-  keep(vertices, mesh.points);
-  keep(vertices, mesh.sizes);
-  keep(vertices, mesh.vertex_tags);
-  keep(vertices, mesh.vertex_refs);
-  keep(vertices, mesh.vertex_tets);
-  keep(vertices, mesh.anchors);
-  keep(tets, mesh.tets);
-  keep(tets, mesh.links);
-  keep(tets, mesh.qualities);
-  keep(tets, mesh.tet_refs);
-  keep(tets, mesh.tet_flags);
-  keep(triangles, mesh.triangles);
+  vertices.keep_in(mesh.points);
+  vertices.keep_in(mesh.sizes);
+  vertices.keep_in(mesh.vertex_tags);
+  vertices.keep_in(mesh.vertex_refs);
+  vertices.keep_in(mesh.vertex_tets);
+  vertices.keep_in(mesh.anchors);
+  tets.keep_in(mesh.tets);
+  tets.keep_in(mesh.links);
+  tets.keep_in(mesh.qualities);
+  tets.keep_in(mesh.tet_refs);
+  tets.keep_in(mesh.tet_flags);
+  triangles.keep_in(mesh.triangles);
   for (GivenNormal& given : mesh.normals) given.vertex = vertices[given.vertex];
   std::erase_if(mesh.normals, [](const GivenNormal& given) { return given.vertex == kNone; });
   parallel_for(mesh.points.size(),

@@ -34,20 +34,28 @@ struct TetSum {
   }
 };
 
-/// Sums add_one(sum, i) over i in [0, n); the shape of the sum depends on n alone.
-template <class Sum, class AddOne>
-Sum sum_up(std::size_t n, AddOne&& add_one) {
+/// Sums what add(sum, begin, end) adds over blocks of [0, n), in their order.
+template <class Sum, class Add>
+Sum sum_up_blocks(std::size_t n, Add&& add) {
   return parallel_reduce(
       n, Sum{},
       [&](std::size_t begin, std::size_t end) {
         Sum here;
-        for (std::size_t i = begin; i < end; ++i) add_one(here, i);
+        add(here, begin, end);
         return here;
       },
       [](Sum a, const Sum& b) {
         a.add(b);
         return a;
       });
+}
+
+/// Sums add_one(sum, i) over i in [0, n); the shape of the sum depends on n alone.
+template <class Sum, class AddOne>
+Sum sum_up(std::size_t n, AddOne&& add_one) {
+  return sum_up_blocks<Sum>(n, [&](Sum& here, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) add_one(here, i);
+  });
 }
 
 VertexSum sum_vertices(const TetMesh& mesh) {
@@ -61,15 +69,24 @@ VertexSum sum_vertices(const TetMesh& mesh) {
 }
 
 TetSum sum_tets(const TetMesh& mesh) {
-  return sum_up<TetSum>(mesh.tets.size(), [&](TetSum& sum, std::size_t t) {
-    if (!mesh.tet_alive(TetId(t))) return;
-    const auto [a, b, c, d] = mesh.corners(TetId(t));
-    const double volume = volume6(a, b, c, d) / 6;
-    ++sum.tets;
-    sum.volume += volume;
-    ++sum.of_ref[mesh.tet_refs[t]];
-    sum.volume_of_ref[mesh.tet_refs[t]] += volume;
-  });
+  return sum_up_blocks<TetSum>(
+      mesh.tets.size(), [&](TetSum& sum, std::size_t begin, std::size_t end) {
+        // Tets of one reference mostly follow each other: it is looked up where it changes.
+        std::int64_t* tets_of_ref = nullptr;
+        double* volume_of_ref = nullptr;
+        std::int32_t last_ref = 0;
+        for (std::size_t t = begin; t < end; ++t) {
+          if (!mesh.tet_alive(TetId(t))) continue;
+          if (const std::int32_t ref = mesh.tet_refs[t]; !tets_of_ref || ref != last_ref)
+            last_ref = ref, tets_of_ref = &sum.of_ref[ref], volume_of_ref = &sum.volume_of_ref[ref];
+          const auto [a, b, c, d] = mesh.corners(TetId(t));
+          const double volume = volume6(a, b, c, d) / 6;
+          ++sum.tets;
+          sum.volume += volume;
+          ++*tets_of_ref;
+          *volume_of_ref += volume;
+        }
+      });
 }
 
 struct Number {
@@ -92,7 +109,9 @@ std::int64_t count_components(const TetMesh& mesh) {
   parallel_for(mesh.tets.size(), [&](std::size_t t) {
     if (!mesh.tet_alive(TetId(t))) return;
     for (int f = 0; f < 4; ++f)
-      if (const FaceLink behind = mesh.across(TetId(t), f); behind.is_tet())
+      // Each face once; most tets are behind one of lower id.
+      if (const FaceLink behind = mesh.across(TetId(t), f);
+          behind.is_tet() && behind.tet() < TetId(t))
         sets.join(TetId(t), behind.tet());
   });
   return count_roots(mesh.tets.size(), sets,

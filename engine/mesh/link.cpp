@@ -11,10 +11,19 @@
 namespace cavea {
 namespace {
 
+/// A face of a bucket; the first of its sorted vertices is the bucket's.
 struct BucketFace {
-  std::uint64_t key;  ///< the second and third vertex, sorted; the first is the bucket's
+  std::uint64_t key;  ///< the second and third vertex
   std::int32_t code;
   bool odd;
+
+  BucketFace(const TetMesh& mesh, std::uint32_t face_code)
+      : code(static_cast<std::int32_t>(face_code)) {
+    const auto face = face_vertices(mesh.tets[face_code >> 2], static_cast<int>(face_code & 3));
+    const auto v = sorted(face);
+    key = std::uint64_t(v[1]) << 32 | std::uint64_t(v[2]);
+    odd = is_odd(face);
+  }
 };
 
 struct LinkFault {
@@ -41,22 +50,18 @@ Buckets all_faces(const TetMesh& mesh) {
   });
 }
 
-void sort_bucket(const TetMesh& mesh, std::span<const std::uint32_t> codes,
-                 std::vector<BucketFace>& out) {
-  out.clear();
-  for (const std::uint32_t code : codes) {
-    const auto face = face_vertices(mesh.tets[code >> 2], static_cast<int>(code & 3));
-    const auto v = sorted(face);
-    out.push_back({std::uint64_t(v[1]) << 32 | std::uint64_t(v[2]), static_cast<std::int32_t>(code),
-                   is_odd(face)});
-  }
-  std::sort(out.begin(), out.end(), [](const BucketFace& a, const BucketFace& b) {
-    return a.key != b.key ? a.key < b.key : a.code < b.code;
-  });
+void link(TetMesh& mesh, FaceLink p, FaceLink q) {
+  mesh.links[p.tet()][p.face()] = q;
+  mesh.links[q.tet()][q.face()] = p;
 }
 
-/// Links the faces of a sorted bucket two by two.
-LinkFault link_bucket(TetMesh& mesh, std::span<const BucketFace> faces) {
+/// Links the faces of a bucket two by two; what is wrong first by vertices, if anything is.
+LinkFault link_sorted(TetMesh& mesh, std::span<const std::uint32_t> codes) {
+  std::vector<BucketFace> faces;
+  for (const std::uint32_t code : codes) faces.emplace_back(mesh, code);
+  std::sort(faces.begin(), faces.end(), [](const BucketFace& a, const BucketFace& b) {
+    return a.key != b.key ? a.key < b.key : a.code < b.code;
+  });
   for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
     const BucketFace &a = faces[i], &b = faces[i + 1];
     if (a.key != b.key) continue;
@@ -66,11 +71,36 @@ LinkFault link_bucket(TetMesh& mesh, std::span<const BucketFace> faces) {
     // A flat tet has no side; build() orients it by its neighbours.
     if (a.odd == b.odd && !is_flat(mesh, p.tet()) && !is_flat(mesh, q.tet()))
       return {{p.tet(), q.tet(), kNone}};
-    mesh.links[p.tet()][p.face()] = q;
-    mesh.links[q.tet()][q.face()] = p;
+    link(mesh, p, q);
     ++i;
   }
   return {};
+}
+
+/// Links the faces of a small bucket where nothing is out of the ordinary: each is looked for among
+/// the few different ones before it, which is sooner than sorting them.
+/// \return whether that was so; if not, some may be linked all the same
+bool link_few(TetMesh& mesh, std::span<const std::uint32_t> codes) {
+  constexpr std::size_t kMost = 64;  // a vertex is the lowest of 22 faces on the average
+  if (codes.size() > kMost) return false;
+  std::array<std::uint64_t, kMost> keys;
+  std::array<std::int32_t, kMost> first;
+  std::array<bool, kMost> odd, paired;
+  std::size_t different = 0;
+  for (const std::uint32_t code : codes) {
+    const BucketFace face(mesh, code);
+    std::size_t k = 0;
+    while (k < different && keys[k] != face.key) ++k;
+    if (k < different) {
+      if (paired[k] || odd[k] == face.odd) return false;
+      paired[k] = true;
+      link(mesh, FaceLink::from_code(first[k]), FaceLink::from_code(face.code));
+      continue;
+    }
+    keys[k] = face.key, first[k] = face.code, odd[k] = face.odd, paired[k] = false;
+    ++different;
+  }
+  return true;
 }
 
 LinkFault link_all(TetMesh& mesh) {
@@ -78,10 +108,9 @@ LinkFault link_all(TetMesh& mesh) {
   return parallel_reduce(
       buckets.keys(), LinkFault{},
       [&](std::size_t begin, std::size_t end) {
-        std::vector<BucketFace> faces;
         for (std::size_t v = begin; v < end; ++v) {
-          sort_bucket(mesh, buckets.of(v), faces);
-          if (const LinkFault fault = link_bucket(mesh, faces); fault.found()) return fault;
+          if (link_few(mesh, buckets.of(v))) continue;
+          if (const LinkFault fault = link_sorted(mesh, buckets.of(v)); fault.found()) return fault;
         }
         return LinkFault{};
       },

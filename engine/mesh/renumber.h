@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -37,6 +38,37 @@ struct Renumbering {
       if (new_id[i] != kNone) out[new_id[i]] = all[i];
     });
     return out;
+  }
+
+  /// Drops what is not kept. In place, as new memory is slow to touch, unless much would be left
+  /// unused: then that is given back.
+  template <class T>
+  void keep_in(std::vector<T>& all) const {
+    constexpr std::size_t kSpareShare = 4;
+    if (count == all.size()) return;
+    if (all.capacity() > count + count / kSpareShare) {
+      all = kept_of(all);
+      return;
+    }
+    // Each block closes its own holes, then the blocks move together.
+    const std::size_t n = all.size(), blocks = (n + kReduceBlock - 1) / kReduceBlock;
+    std::vector<std::size_t> left(blocks);
+    parallel_for(
+        blocks,
+        [&](std::size_t b) {
+          std::size_t to = b * kReduceBlock;
+          for (std::size_t i = to; i < std::min(n, (b + 1) * kReduceBlock); ++i)
+            if (new_id[i] != kNone) all[to++] = all[i];
+          left[b] = to - b * kReduceBlock;
+        },
+        1);
+    std::size_t to = 0;
+    for (std::size_t b = 0; b < blocks; to += left[b++]) {
+      const auto from = all.begin() + std::ptrdiff_t(b * kReduceBlock);
+      if (to != b * kReduceBlock)
+        std::copy(from, from + std::ptrdiff_t(left[b]), all.begin() + std::ptrdiff_t(to));
+    }
+    all.resize(count);
   }
 };
 

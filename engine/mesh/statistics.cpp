@@ -10,6 +10,7 @@
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/dihedral.h"
 #include "cavea/geometry/metric.h"
+#include "cavea/mesh/edge_shares.h"
 
 namespace cavea {
 namespace {
@@ -29,9 +30,38 @@ std::size_t equal_bin(double x, double top, std::size_t bins) {
 
 Vec3 centroid(const std::array<Vec3, 4>& p) { return 0.25 * (p[0] + p[1] + p[2] + p[3]); }
 
-struct QualitySum {
-  static constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
+/// Bins of angles, equal from 0 to 180 degrees, by cosines.
+class CosineBins {
+ public:
+  CosineBins() {
+    for (std::size_t k = 0; k < ends_.size(); ++k)
+      ends_[k] = -std::cos(double(k + 1) * 180 / double(ends_.size()) * kDegree);
+    ends_.back() = kInfinity;
+    std::uint8_t bin = 0;
+    for (std::size_t c = 0; c < first_.size(); ++c) {
+      const double low = (double(c) - kRounding) / kCells - 1;
+      while (ends_[bin] < low) ++bin;
+      first_[c] = bin;
+    }
+  }
+  /// \pre within [-1, 1]
+  std::size_t operator()(double cosine) const {
+    // A search among all ends guesses wrong at every step; a fine grid leaves next to none.
+    std::size_t bin = first_[std::size_t((1 - cosine) * kCells)];
+    while (ends_[bin] <= -cosine) ++bin;
+    return bin;
+  }
+
+ private:
+  static constexpr std::size_t kCells = 256;  // from 0 to 1
+  static constexpr double kRounding = 0.5;    // of a cell: what is near an end may be in the next
+  std::array<double, std::tuple_size_v<decltype(QualityStatistics::dihedral_histogram)>> ends_;
+  std::array<std::uint8_t, 2 * kCells + 1> first_;  ///< of each cell's first cosines
+};
+
+struct QualitySum {
   QualityStatistics result;
   double sum = 0;
   std::int64_t tets = 0;
@@ -81,14 +111,8 @@ struct QualitySum {
     ++result.dihedral_histogram[equal_bin(angle, 180, result.dihedral_histogram.size())];
   }
   static std::size_t bin_of_cosine(double cosine) {
-    static const auto ends = [] {
-      std::array<double, std::tuple_size_v<decltype(result.dihedral_histogram)>> cosines;
-      for (std::size_t k = 0; k < cosines.size(); ++k)
-        cosines[k] = -std::cos(double(k + 1) * 180 / double(cosines.size()) * kDegree);
-      return cosines;
-    }();
-    const auto bin = std::upper_bound(ends.begin(), ends.end() - 1, -cosine);
-    return std::size_t(bin - ends.begin());
+    static const CosineBins bins;
+    return bins(cosine);
   }
   /// `next` holds tets of larger ids.
   static QualitySum combine(QualitySum a, const QualitySum& next) {
@@ -147,11 +171,13 @@ struct LengthSum {
   }
 };
 
-/// For each vertex the other ends of the edges whose smaller vertex it is, once for each tet.
+/// For each vertex the other ends of the edges whose smaller vertex it is, once or more often.
 Buckets edge_ends(const TetMesh& mesh) {
   return Buckets(mesh.tets.size(), mesh.points.size(), [&](std::size_t t, auto&& put) {
     if (!mesh.tet_alive(TetId(t))) return;
+    const EdgeShare share(mesh, TetId(t));
     for (const auto& e : kEdgeVertices) {
+      if (!share.has(e)) continue;
       const VertexId a = mesh.tets[t][e[0]], b = mesh.tets[t][e[1]];
       put(std::min(a, b), static_cast<std::uint32_t>(std::max(a, b)));
     }

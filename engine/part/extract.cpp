@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -30,23 +31,29 @@ std::vector<std::int32_t> vertex_parts(const TetMesh& mesh,
   return part;
 }
 
-/// The members of each key's group, ascending, and each member's position in its group: a counting
-/// sort whose blocks keep their order.
+/// Where an item is: its key, and its position in the group of that key.
+struct Place {
+  std::int32_t key = kIdle, local = kNone;
+};
+
+/// The members of each key's group, ascending, and the place of each item: a counting sort whose
+/// blocks keep their order. Negative keys have no groups.
 class Groups {
  public:
   Groups(const std::vector<std::int32_t>& key, int keys)
-      : local(key.size(), kNone), keys_(std::size_t(keys)), first_(keys_ + 1, 0) {
+      : places_(key.size()), keys_(std::size_t(keys)), first_(keys_ + 1, 0) {
     // Few blocks, as each has counters for all keys.
     const std::size_t block = std::max(kReduceBlock, 16 * keys_);
     const std::size_t blocks = (key.size() + block - 1) / block;
     std::vector<std::uint32_t> next(blocks * keys_, 0);
     auto for_block = [&](std::size_t b, auto&& work) {
-      std::uint32_t* counters = next.data() + b * keys_;
       for (std::size_t i = b * block; i < std::min(key.size(), (b + 1) * block); ++i)
-        if (key[i] >= 0) work(i, counters[key[i]]);
+        work(i, next.data() + b * keys_);
     };
     parallel_tasks(blocks, [&](std::size_t b) {
-      for_block(b, [](std::size_t, std::uint32_t& count) { ++count; });
+      for_block(b, [&](std::size_t i, std::uint32_t* counters) {
+        if (key[i] >= 0) ++counters[key[i]];
+      });
     });
     std::uint32_t total = 0;
     for (std::size_t k = 0; k < keys_; ++k) {
@@ -55,8 +62,11 @@ class Groups {
     }
     members_.resize(total);
     parallel_tasks(blocks, [&](std::size_t b) {
-      for_block(b, [&](std::size_t i, std::uint32_t& at) {
-        local[i] = std::int32_t(at - first_[std::size_t(key[i])]);
+      for_block(b, [&](std::size_t i, std::uint32_t* counters) {
+        places_[i].key = key[i];
+        if (key[i] < 0) return;
+        std::uint32_t& at = counters[key[i]];
+        places_[i].local = std::int32_t(at - first_[std::size_t(key[i])]);
         members_[at++] = std::uint32_t(i);
       });
     });
@@ -65,10 +75,11 @@ class Groups {
   std::span<const std::uint32_t> of(std::size_t key) const {
     return {members_.data() + first_[key], first_[key + 1] - first_[key]};
   }
-
-  std::vector<std::int32_t> local;
+  /// Together, as who asks for the one mostly asks for the other.
+  Place place(std::int32_t item) const { return places_[item]; }
 
  private:
+  std::vector<Place> places_;
   std::size_t keys_;
   std::vector<std::uint32_t> first_, members_;
 };
@@ -76,13 +87,47 @@ class Groups {
 /// What all parts are extracted from.
 struct Whole {
   const TetMesh& mesh;
-  const std::vector<std::int32_t>& labels;
   Groups tets, vertices;
-  std::vector<std::int32_t> vertex_part;
   /// Local id of each triangle in the part of each of its sides.
   std::vector<std::array<TriangleId, 2>> local_triangle;
   /// For cut k of each part: the codes of its face and of the one behind.
   std::vector<std::vector<std::array<std::int32_t, 2>>> cut_faces;
+};
+
+/// The local ids of a part's shared vertices: an open hash table.
+class SharedIds {
+ public:
+  /// The different ones of the vertices, ascending. They have ids from `first` on. \pre called once
+  std::vector<VertexId> take(const std::vector<VertexId>& vertices, VertexId first) {
+    table_.assign(std::bit_ceil(vertices.size() + 1), {});
+    shift_ = 32 - int(std::bit_width(table_.size() - 1));
+    std::vector<VertexId> different;
+    for (const VertexId v : vertices) {
+      Entry& entry = table_[place_of(v)];
+      if (entry.vertex == v) continue;
+      entry.vertex = v;
+      different.push_back(v);
+    }
+    std::sort(different.begin(), different.end());
+    for (const VertexId v : different) table_[place_of(v)].local = first++;
+    return different;
+  }
+  VertexId operator[](VertexId v) const { return table_[place_of(v)].local; }
+
+ private:
+  struct Entry {
+    VertexId vertex = kNone, local = kNone;
+  };
+  /// Where the vertex is, or belongs; there is always an empty entry.
+  std::size_t place_of(VertexId v) const {
+    constexpr std::uint32_t kGoldenRatio = 0x9e3779b9;  // Knuth's multiplicative hashing
+    std::size_t i = shift_ < 32 ? (std::uint32_t(v) * kGoldenRatio) >> shift_ : 0;
+    while (table_[i].vertex != v && table_[i].vertex != kNone) i = (i + 1) & (table_.size() - 1);
+    return i;
+  }
+
+  std::vector<Entry> table_;
+  int shift_ = 32;
 };
 
 class Extraction {
@@ -100,26 +145,27 @@ class Extraction {
   }
 
  private:
-  bool here(FaceLink side) const { return side.is_tet() && whole_.labels[side.tet()] == number_; }
+  bool here(FaceLink side) const { return !local_face(side).is_unset(); }
+  /// The face in this part, unset if it is none of its own.
   FaceLink local_face(FaceLink side) const {
-    return here(side) ? FaceLink::to_tet(whole_.tets.local[side.tet()], side.face()) : FaceLink();
+    if (!side.is_tet()) return FaceLink();
+    const Place place = whole_.tets.place(side.tet());
+    return place.key == number_ ? FaceLink::to_tet(place.local, side.face()) : FaceLink();
   }
   VertexId local_vertex(VertexId v) const {
-    if (whole_.vertex_part[v] != kShared) return whole_.vertices.local[v];
-    const auto& s = part_.shared_vertices;
-    return VertexId(part_.own_vertices.size()) +
-           VertexId(std::lower_bound(s.begin(), s.end(), v) - s.begin());
+    const Place place = whole_.vertices.place(v);
+    if (place.key != kShared) return place.local;
+    return shared_ids_[v];
   }
 
   void take_vertices() {
     const auto own = whole_.vertices.of(std::size_t(number_));
     part_.own_vertices.assign(own.begin(), own.end());
-    auto& shared = part_.shared_vertices;
+    std::vector<VertexId> of_tets;
     for (std::uint32_t t : tets_)
       for (VertexId v : whole_.mesh.tets[t])
-        if (whole_.vertex_part[v] == kShared) shared.push_back(v);
-    std::sort(shared.begin(), shared.end());
-    shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
+        if (whole_.vertices.place(v).key == kShared) of_tets.push_back(v);
+    const auto& shared = part_.shared_vertices = shared_ids_.take(of_tets, VertexId(own.size()));
     part_.mesh.resize_vertices(own.size() + shared.size());
     for (std::size_t i = 0; i < own.size(); ++i) take_vertex(i, VertexId(own[i]), 0);
     for (std::size_t i = 0; i < shared.size(); ++i)
@@ -193,9 +239,7 @@ class Extraction {
           const Triangle& s = whole_.mesh.triangles[link.triangle()];
           const std::size_t side = s.sides[0] == mine ? 0 : 1;
           out = FaceLink::to_triangle(whole_.local_triangle[link.triangle()][side]);
-        } else if (here(link)) {
-          out = local_face(link);
-        } else {
+        } else if (out = local_face(link); out.is_unset()) {
           out = FaceLink::to_cut(std::int32_t(cuts.size()));
           cuts.push_back({mine.code(), link.code()});
         }
@@ -211,6 +255,7 @@ class Extraction {
   const std::int32_t number_;
   Part& part_;
   const std::span<const std::uint32_t> tets_;
+  SharedIds shared_ids_;
 };
 
 /// Finds for each cut the cut of the other part on the same face, or the idle face.
@@ -219,42 +264,37 @@ void pair_cuts(const std::vector<std::vector<std::array<std::int32_t, 2>>>& cut_
   struct Cut {
     std::int32_t key, part, number;  // the key is the lower of the codes of the two faces
   };
-  std::vector<Cut> cuts;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
+  std::vector<std::size_t> first(parts.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) first[p] = cut_faces[p].size();
+  std::vector<Cut> cuts(exclusive_scan(first));
+  parallel_tasks(parts.size(), [&](std::size_t p) {
     parts[p].partners.resize(cut_faces[p].size());
     for (std::size_t k = 0; k < cut_faces[p].size(); ++k) {
       const auto [mine, behind] = cut_faces[p][k];
-      cuts.push_back({std::min(mine, behind), std::int32_t(p), std::int32_t(k)});
+      cuts[first[p] + k] = {std::min(mine, behind), std::int32_t(p), std::int32_t(k)};
     }
-  }
+  });
   parallel_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
     return std::tie(a.key, a.part) < std::tie(b.key, b.part);
   });
-  auto pair = [&](const Cut& a, Part::Partner with) {
-    parts[std::size_t(a.part)].partners[std::size_t(a.number)] = with;
-  };
-  for (std::size_t i = 0; i < cuts.size(); ++i) {
+  parallel_for(cuts.size(), [&](std::size_t i) {
     const Cut& a = cuts[i];
-    if (i + 1 < cuts.size() && cuts[i + 1].key == a.key) {
-      const Cut& b = cuts[++i];
-      pair(a, {b.part, b.number});
-      pair(b, {a.part, a.number});
-    } else {
-      pair(a, {kIdle, cut_faces[std::size_t(a.part)][std::size_t(a.number)][1]});
-    }
-  }
+    Part::Partner& partner = parts[std::size_t(a.part)].partners[std::size_t(a.number)];
+    const auto with = [&](const Cut& b) { partner = {b.part, b.number}; };
+    if (i > 0 && cuts[i - 1].key == a.key)
+      with(cuts[i - 1]);
+    else if (i + 1 < cuts.size() && cuts[i + 1].key == a.key)
+      with(cuts[i + 1]);
+    else
+      partner = {kIdle, cut_faces[std::size_t(a.part)][std::size_t(a.number)][1]};
+  });
 }
 
 }  // namespace
 
 std::vector<Part> extract_parts(const TetMesh& mesh, const std::vector<std::int32_t>& labels,
                                 int parts) {
-  std::vector<std::int32_t> vertex_part = vertex_parts(mesh, labels);
-  Whole whole{mesh,
-              labels,
-              Groups(labels, parts),
-              Groups(vertex_part, parts),
-              std::move(vertex_part),
+  Whole whole{mesh, Groups(labels, parts), Groups(vertex_parts(mesh, labels), parts),
               std::vector<std::array<TriangleId, 2>>(mesh.triangles.size(), {kNone, kNone}),
               std::vector<std::vector<std::array<std::int32_t, 2>>>(std::size_t(parts))};
   std::vector<Part> result(static_cast<std::size_t>(parts));

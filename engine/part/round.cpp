@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <utility>
 
 #include "cavea/base/ids_where.h"
 #include "cavea/base/parallel.h"
@@ -82,6 +83,7 @@ constexpr std::size_t kFew = 64;
 std::vector<TetId> active_tets(const TetMesh& m, const CycleSettings& settings) {
   std::vector<TetId> asked =
       ids_where(m.tets.size(), [&](TetId t) { return is_asked(m, std::size_t(t), settings); });
+  if (asked.size() == m.tets.size()) return asked;
   return kFew * asked.size() < m.tets.size() ? with_layers_of_few(m, std::move(asked))
                                              : with_layers_of_many(m, asked);
 }
@@ -100,7 +102,7 @@ std::size_t count_holes(const TetMesh& m) {
 /// \param part_of by tet, kept in step
 void remove_holes(TetMesh& m, std::vector<std::int32_t>& part_of) {
   if (kFew * count_holes(m) < m.tets.size()) return fill_holes(m, &part_of);
-  part_of = living_tets(m).kept_of(part_of);
+  living_tets(m).keep_in(part_of);
   compact(m);
 }
 
@@ -137,10 +139,13 @@ std::vector<std::int32_t> label_parts(const TetMesh& m, const std::vector<TetId>
 
 /// Lets a mesh of which much is in the parts grow a little without being moved while they are held.
 void make_room(TetMesh& m, std::size_t active) {
-  constexpr std::size_t kMuch = 4, kShare = 8;  // rounds of fine and polish add fewer
+  // Rounds of fine and polish add fewer than the least. What has room is left where it is.
+  constexpr std::size_t kMuch = 4, kLeastShare = 16, kShare = 8;
   if (kMuch * active < m.tets.size()) return;
-  m.reserve_vertices(m.points.size() + m.points.size() / kShare);
-  m.reserve_tets(m.tets.size() + m.tets.size() / kShare);
+  const auto with = [](std::size_t n, std::size_t share) { return n + n / share; };
+  const std::size_t vertices = m.points.size(), tets = m.tets.size();
+  if (m.points.capacity() < with(vertices, kLeastShare)) m.reserve_vertices(with(vertices, kShare));
+  if (m.tets.capacity() < with(tets, kLeastShare)) m.reserve_tets(with(tets, kShare));
 }
 
 RoundResult run_whole(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings) {
@@ -160,7 +165,9 @@ int part_count(std::int64_t tets) {
 
 RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings,
                       std::vector<std::int32_t>* part_of_tet) {
-  const std::vector<TetId> active = active_tets(mesh, settings);
+  // Memory that is not to be held beside the parts is given back; an empty list would keep it.
+  if (part_of_tet) *part_of_tet = std::vector<std::int32_t>();
+  std::vector<TetId> active = active_tets(mesh, settings);
   if (active.empty()) {
     if (part_of_tet) part_of_tet->assign(mesh.tets.size(), kIdle);
     return {{}, 0};
@@ -172,7 +179,9 @@ RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
     return result;
   }
   make_room(mesh, active.size());
-  std::vector<Part> parts = extract_parts(mesh, label_parts(mesh, active, count), count);
+  std::vector<std::int32_t> labels = label_parts(mesh, active, count);
+  active = std::vector<TetId>();
+  std::vector<Part> parts = extract_parts(mesh, std::exchange(labels, {}), count);
   std::vector<CycleResult> results(parts.size());
   // Largest first, so that the last to finish is small.
   std::vector<std::size_t> order(parts.size());
