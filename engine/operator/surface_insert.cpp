@@ -51,19 +51,32 @@ int SurfaceInsert::sheet_of(TriangleId t) const {
   return -1;
 }
 
-/// The triangles on the hole with both of their tets in it, and their sides.
+/// Whether a triangle on the hole, but not at the edge, is one that may vanish, wherever it is
+/// reached from: with all of its tets in the hole, and the vertex in its circumcircle.
+bool SurfaceInsert::is_candidate(TriangleId id) {
+  const Triangle& t = c_.mesh.triangles[id];
+  if (t.tags & (tag::kRequired | tag::kFrozen)) return false;
+  bool same_patch = false;
+  for (const auto& at : c_.shell.triangles) {
+    if (at.triangle == id) return false;
+    same_patch |= c_.mesh.triangles[at.triangle].patch == t.patch;
+  }
+  return same_patch &&
+         std::ranges::all_of(t.sides,
+                             [&](FaceLink side) {
+                               return side.is_unset() ||
+                                      (side.is_tet() && hole_.contains(side.tet()));
+                             }) &&
+         in_circle(vertex_.point, c_.point(t.v[0]), c_.point(t.v[1]), c_.point(t.v[2]));
+}
+
+/// The candidates and their sides.
 void SurfaceInsert::collect_sides() {
   const TetMesh& m = c_.mesh;
   on_hole_.clear();
   for (const TetId t : hole_.tets())
-    for (const FaceLink link : m.links[t]) {
-      if (!link.is_triangle()) continue;
-      const Triangle& s = m.triangles[link.triangle()];
-      const bool whole = std::ranges::all_of(s.sides, [&](FaceLink side) {
-        return side.is_unset() || (side.is_tet() && hole_.contains(side.tet()));
-      });
-      if (whole && !(s.tags & (tag::kRequired | tag::kFrozen))) on_hole_.push_back(link.triangle());
-    }
+    for (const FaceLink link : m.links[t])
+      if (link.is_triangle() && is_candidate(link.triangle())) on_hole_.push_back(link.triangle());
   std::sort(on_hole_.begin(), on_hole_.end());
   on_hole_.erase(std::unique(on_hole_.begin(), on_hole_.end()), on_hole_.end());
   sides_.clear();
@@ -83,8 +96,7 @@ bool SurfaceInsert::may_open(TriangleId id, const Triangle& from, const Vec3& no
   const Triangle& t = c_.mesh.triangles[id];
   if (t.patch != from.patch || is_open(id)) return false;
   const Vec3 n = normal_of(c_.mesh, t);
-  if (dot(n, normal) < kSmoothCosine * std::sqrt(norm2(n) * norm2(normal))) return false;
-  return in_circle(vertex_.point, c_.point(t.v[0]), c_.point(t.v[1]), c_.point(t.v[2]));
+  return dot(n, normal) >= kSmoothCosine * std::sqrt(norm2(n) * norm2(normal));
 }
 
 /// Opens what is reached from a triangle at the edge over smooth sides.
@@ -119,6 +131,7 @@ void SurfaceInsert::open_triangles(bool wide) {
   open_edge();
   if (!wide) return;
   collect_sides();
+  if (on_hole_.empty()) return;
   const std::size_t sheets = opened_.size();
   for (std::size_t s = 0; s < sheets; ++s) open_sheet(int(s), opened_[s].triangle);
   if (!are_discs()) open_edge();

@@ -32,6 +32,7 @@ class SurfaceInsert {
 
   Verdict try_cavity(const EdgeOnSurface& edge, VertexId id, bool wide, Cavity& cavity);
   Verdict admit(TetId t) const;
+  bool is_candidate(TriangleId id);
   void collect_sides();
   void open_edge();
   void open_sheet(int sheet, TriangleId first);
@@ -48,8 +49,8 @@ class SurfaceInsert {
   OperatorContext& c_;
   DelaunayCavity hole_;
   NewVertex vertex_;
-  std::vector<TriangleId> on_hole_;
-  std::vector<Side> sides_;  ///< of the triangles on the hole, by rising (a, b, triangle)
+  std::vector<TriangleId> on_hole_;  ///< that may vanish beside those at the edge
+  std::vector<Side> sides_;          ///< of these, by rising (a, b, triangle)
   std::vector<Opened> opened_;
   std::vector<VertexId> rim_;
 };
