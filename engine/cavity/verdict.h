@@ -35,14 +35,15 @@ enum class Operator : std::uint8_t {
   kRelocate,
   kEdgeStar,
   kReconnect,
-  kVertexInsert
+  kVertexInsert,
+  kSurfaceInsert
 };
-inline constexpr int kOperators = 8;
+inline constexpr int kOperators = 9;
 
 inline const char* name(Operator o) {
   constexpr std::array<const char*, kOperators> kNames = {
       "edge_split", "edge_collapse", "edge_swap", "face_swap",
-      "relocate",   "edge_star",     "reconnect", "vertex_insert"};
+      "relocate", "edge_star", "reconnect", "vertex_insert", "surface_insert"};
   return kNames[static_cast<std::size_t>(o)];
 }
 

@@ -8,13 +8,6 @@ namespace {
 /// Shares of the way from the straight midpoint to the surface that are tried in turn.
 constexpr double kShares[] = {1, 0.5, 0.25, 0};
 
-struct EdgeOnSurface {
-  TriangleId triangle = kNone;
-  int side = 0;
-  Tag tags = 0;
-  std::int32_t ref = 0;
-};
-
 EdgeOnSurface edge_of(const TetMesh& m, const Shell& shell) {
   const TriangleId id = shell.triangles[0].triangle;
   const Triangle& t = m.triangles[id];
@@ -22,6 +15,8 @@ EdgeOnSurface edge_of(const TetMesh& m, const Shell& shell) {
     if (t.v[k] != shell.p && t.v[k] != shell.q) return {id, k, t.edge_tag[k], t.edge_ref[k]};
   return {};
 }
+
+}  // namespace
 
 Verdict may_split(const OperatorContext& c, EdgeOnSurface& edge) {
   const Shell& s = c.shell;
@@ -36,6 +31,8 @@ Verdict may_split(const OperatorContext& c, EdgeOnSurface& edge) {
   if (edge.tags & tag::kPinched) return Verdict::kBreaksTopology;
   return edge.tags & tag::kRequired ? Verdict::kBreaksFeature : Verdict::kAccept;
 }
+
+namespace {
 
 /// Qualities of the two halves of each tet of the shell with the vertex at x; the worst, or 0 when
 /// one is flat.

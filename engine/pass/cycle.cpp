@@ -10,7 +10,8 @@ CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
   for (int sweep = 0; sweep < settings.sweeps; ++sweep) {
     if (settings.cancel && settings.cancel->load(std::memory_order_relaxed)) throw Cancelled();
     std::int64_t changes = 0;
-    if (settings.insert) changes += split_pass(state);
+    if (settings.insert)
+      changes += settings.delaunay_splits ? surface_pass(state) : split_pass(state);
     if (settings.collapse) changes += collapse_pass(state);
     if (sweep == 0 && settings.move && settings.shake_below > 0) shake_pass(state);
     state.last_resorts = sweep > 0;

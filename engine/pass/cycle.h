@@ -12,6 +12,8 @@ struct CycleSettings {
   Limits limits;
   /// What may be done, in any pass: stars of edges insert vertices like splits, shaking moves them.
   bool insert = true, collapse = true, swap = true, move = true;
+  /// Only surface edges are split, each that is there once a sweep, by the Delaunay kernel.
+  bool delaunay_splits = false;
   /// Split surface edges whose middle is farther from the ideal surface than the tolerance, too,
   /// down to this Euclidean length; 0: never.
   double shortest_fitted = 0;

@@ -30,6 +30,7 @@ struct PartState {
 };
 
 /// Each returns the number of accepted operations.
+std::int64_t surface_pass(PartState& state);
 std::int64_t split_pass(PartState& state);
 std::int64_t collapse_pass(PartState& state);
 std::int64_t quality_pass(PartState& state);

@@ -15,6 +15,9 @@ constexpr double kFittedEdge = 1.5;
 /// The paper's rough bounds of lengths (section 4.3, step 4).
 constexpr double kRoughLong = 2.0, kRoughShort = 0.4;
 
+/// Each level halves the longest edges of the surface; as many as in bulk.
+constexpr int kMostSurfaceLevels = 16;
+
 CycleSettings base(const ResolvedOptions& o) {
   CycleSettings s;
   s.limits.tolerance_share = kOperatorShare;
@@ -69,6 +72,18 @@ Phase polish(const ResolvedOptions& o) {
 }
 
 }  // namespace
+
+Phase surfacing(const ResolvedOptions& o) {
+  Phase p = rough(o);
+  p.name = "surface";
+  p.rounds = kMostSurfaceLevels;
+  p.settled = 0.02;
+  p.cycle.sweeps = 1;
+  p.cycle.delaunay_splits = true;
+  p.cycle.collapse = p.cycle.swap = p.cycle.move = false;
+  p.cycle.repair_below = 0;
+  return p;
+}
 
 Phase thinning(const ResolvedOptions& o) {
   Phase p = rough(o);

@@ -28,6 +28,9 @@ struct Phase {
 /// with seeds.
 std::vector<Phase> recipe(const ResolvedOptions& options, bool filled);
 
+/// The phase before that: long edges of the surface are halved, level by level.
+Phase surfacing(const ResolvedOptions& options);
+
 /// The phase before seeds: collapses what is far too fine, so that they find room, and swaps what
 /// is flat.
 Phase thinning(const ResolvedOptions& options);

@@ -43,6 +43,10 @@ constexpr int kRepairs = 7;
 constexpr int kMends = 5;
 constexpr double kMended = 0.9;
 
+/// Of a lower mean quality are bodies filled with needles from side to side: halving the edges of
+/// their surface in bulk would divide each needle many times.
+constexpr double kOfNeedles = 0.25;
+
 /// A budget of tets is met when it is exceeded by no more than this share.
 constexpr double kBudgetMargin = 0.1;
 
@@ -221,13 +225,25 @@ class Run {
     return seeds;
   }
 
+  /// The surface's edges by the Delaunay kernel, a level a round.
+  void refine_among_needles() {
+    if (r_.freeze.surface) return;
+    run_phase(surfacing(r_));
+    resize();
+    ask_all(mesh_);
+  }
+
   /// Brings the mesh near the wanted sizes by what needs no search for where to put vertices.
   /// \return whether seeds found room in it
   bool fill() {
     if (r_.freeze.insert) return false;
     constexpr double kFew = 0.05;  // of all vertices
     TetMesh before = mesh_;
-    timed("bulk", [&] { refine(BulkEdges::kOfSurface); });
+    const bool needles = report_.before.quality.mean < kOfNeedles;
+    if (needles)
+      timed("surface", [&] { refine_among_needles(); });
+    else
+      timed("bulk", [&] { refine(BulkEdges::kOfSurface); });
     const bool divided = mesh_.points.size() > before.points.size();
     const Phase thin = thinning(r_);
     timed(thin.name, [&] { run_phase(thin); });

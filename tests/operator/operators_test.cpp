@@ -2,6 +2,8 @@
 #include <functional>
 #include <limits>
 
+#include "cavea/mesh/statistics.h"
+#include "cavea/operator/surface_insert.h"
 #include "cavea/operator/vertex_insert.h"
 #include "operator/stage.h"
 
@@ -87,6 +89,11 @@ const Action kActions[] = {
        return s.mesh.tet_alive(t[0]) && commit_if(s, reconnect(s.context, t[0], true, s.cavity));
      }},
     {Operator::kVertexInsert, tets_of, insert_in_the_middle},
+    {Operator::kSurfaceInsert, edges_of,
+     [](Stage& s, const Item& e) {
+       if (!s.find_edge(e[0], e[1])) return false;
+       return commit_if(s, SurfaceInsert(s.context)(s.editor.next_vertex(), s.cavity));
+     }},
 };
 
 const Action& action(Operator op) { return kActions[std::size_t(op)]; }
@@ -147,6 +154,33 @@ INSTANTIATE_TEST_SUITE_P(All, Operators,
                            return subjects()[std::get<0>(pair.param)].name + "_" +
                                   name(Operator(std::get<1>(pair.param)));
                          });
+
+/// All edges of the surface longer than a length, longest first, until there are none.
+void refine_surface(Stage& stage, double length, Operator op) {
+  for (bool again = true; again;) {
+    again = false;
+    std::vector<Item> edges = edges_of(stage.mesh);
+    std::ranges::stable_sort(edges, std::greater{}, [&](const Item& e) {
+      return distance(stage.mesh.points[e[0]], stage.mesh.points[e[1]]);
+    });
+    for (const Item& e : edges) {
+      if (distance(stage.mesh.points[e[0]], stage.mesh.points[e[1]]) <= length) break;
+      if (!stage.find_edge(e[0], e[1]) || !stage.context.shell.on_surface()) continue;
+      again |= action(op).attempt(stage, e);
+    }
+  }
+}
+
+TEST(SurfaceInsert, MakesBetterTetsOfNeedlesThanSplits) {
+  MeshData rod = kuhn_cube(2);
+  for (Vec3& p : rod.vertices) p.z *= 20;
+  Stage split(rod), insert(rod);
+  refine_surface(split, 0.4, Operator::kEdgeSplit);
+  refine_surface(insert, 0.4, Operator::kSurfaceInsert);
+  expect_sound(insert.mesh);
+  EXPECT_NEAR(volume(insert.mesh), 20, 1e-9);
+  EXPECT_GT(quality_statistics(insert.mesh).mean, 1.1 * quality_statistics(split.mesh).mean);
+}
 
 TEST(Operators, OfQualityRaiseTheWorstOfTheirCavity) {
   constexpr std::uint64_t kSeed = 23;

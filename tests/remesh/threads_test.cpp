@@ -44,6 +44,12 @@ TEST(Threads, DoNotChangeReferences) {
   expect_same_at_any_number_of_threads(octants(6), uniform(kSanitized ? 0.07 : 0.05), 12000);
 }
 
+TEST(Threads, DoNotChangeWhatIsFilledWithNeedles) {
+  MeshData rods = kuhn_cube(2);
+  for (Vec3& p : rods.vertices) p.z *= 10;
+  expect_same_at_any_number_of_threads(rods, uniform(kSanitized ? 0.2 : 0.12), 8000);
+}
+
 TEST(RunInArena, RunsAsManyThreadsAsAreAskedFor) {
   for (const int threads : {1, 2, 3, 8}) {
     std::atomic<int> inside = 0;
