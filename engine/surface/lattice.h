@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,6 +16,7 @@ class Lattice {
  public:
   /// Corners and edge midpoints.
   static constexpr int kMinIntervals = 2;
+  /// 276 places; a triangle that needs more at the caller's step is far larger than the rest.
   static constexpr int kMaxIntervals = 22;
 
   struct Place {

@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -136,7 +135,7 @@ class Sampler {
     return resolve(t, lattices_[n], floor, scratch);
   }
 
-  /// Measures the first samples so far that this is sure.
+  /// Whether the corners, edge midpoints and centroid are; measured only as far as that needs.
   bool are_first_near(std::size_t t, Scratch& s) const {
     const double near = sampling_.enough * least_hausd_;
     const auto is_near = [&](const Measured& m) { return m.distance <= near; };
