@@ -1,21 +1,23 @@
 #include "cavea/field/gradation.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
 #include "cavea/base/atomic.h"
 #include "cavea/base/parallel.h"
-#include "cavea/mesh/edge_shares.h"
 
 namespace cavea {
 namespace {
 
-/// Calls relax(from, to, length2), which says whether it changed `to`, on all edges both ways until
-/// none changes; it calls length2() if it needs it. That has one result in any order where each
-/// step is monotone; the stamps let a sweep skip tets none of whose vertices has changed in the
-/// sweep before.
+double load(float& x) { return std::atomic_ref(x).load(std::memory_order_relaxed); }
+
+/// Calls relax(from, to, length2), which says whether it changed the value of `to`, on all edges
+/// between different values both ways until none changes; it calls length2() if it needs it. That
+/// has one result in any order where each step is monotone; the stamps let a sweep skip tets none
+/// of whose vertices has changed in the sweep before.
 template <class Relax>
-void relax_edges(const TetMesh& mesh, Relax&& relax) {
+void relax_edges(const TetMesh& mesh, std::vector<float>& values, Relax&& relax) {
   std::vector<std::int32_t> changed(mesh.points.size(), 0);
   std::atomic<bool> again = true;
   auto stamp = [&](VertexId v, std::int32_t sweep) {
@@ -25,13 +27,13 @@ void relax_edges(const TetMesh& mesh, Relax&& relax) {
   for (std::int32_t sweep = 1; again.exchange(false); ++sweep)
     parallel_for(mesh.tets.size(), [&](std::size_t t) {
       const auto& v = mesh.tets[t];
-      bool active = false;
+      const auto is_as_first = [&](VertexId k) { return load(values[k]) == load(values[v[0]]); };
+      if (std::ranges::all_of(v, is_as_first)) return;
+      bool active = sweep == 1;
       for (VertexId k : v)
         active |= std::atomic_ref(changed[k]).load(std::memory_order_relaxed) >= sweep - 1;
       if (!active) return;
-      const EdgeShare share(mesh, TetId(t));
       for (const auto& e : kEdgeVertices) {
-        if (!share.has(e)) continue;
         const VertexId a = v[e[0]], b = v[e[1]];
         const auto length2 = [&] { return distance2(mesh.points[a], mesh.points[b]); };
         if (relax(a, b, length2)) stamp(b, sweep);
@@ -39,8 +41,6 @@ void relax_edges(const TetMesh& mesh, Relax&& relax) {
       }
     });
 }
-
-double load(float& x) { return std::atomic_ref(x).load(std::memory_order_relaxed); }
 
 /// Whether a difference is more than the slope allows over a length: no root for most edges.
 template <class Length2>
@@ -54,7 +54,7 @@ std::vector<float> floors_around(const TetMesh& mesh, const ImposedSizes& impose
   std::vector<float> below(imposed.sizes.size());  // negative, so that the minimum is the largest
   for (std::size_t v = 0; v < below.size(); ++v) below[v] = -imposed.sizes[v];
   if (!below.empty())
-    relax_edges(mesh, [&](VertexId from, VertexId to, auto&& length2) {
+    relax_edges(mesh, below, [&](VertexId from, VertexId to, auto&& length2) {
       if (!is_steep(load(below[to]) - load(below[from]), slope, length2)) return false;
       const float bound = float(load(below[from]) + slope * std::sqrt(length2()));
       if (!(bound < load(below[to]))) return false;
@@ -73,7 +73,7 @@ void limit_gradation(TetMesh& mesh, double h_grad, const ImposedSizes& imposed) 
   for (std::size_t v = 0; v < floors.size(); ++v)
     mesh.sizes[v] = is_imposed(VertexId(v)) ? imposed.sizes[v] : std::max(mesh.sizes[v], floors[v]);
   const double slope = std::log(h_grad), slope_at_imposed = std::log(imposed.h_grad);
-  relax_edges(mesh, [&](VertexId low, VertexId high, auto&& length2) {
+  relax_edges(mesh, mesh.sizes, [&](VertexId low, VertexId high, auto&& length2) {
     const double rise = is_imposed(low) || is_imposed(high) ? slope_at_imposed : slope;
     if (!is_steep(load(mesh.sizes[high]) - load(mesh.sizes[low]), rise, length2)) return false;
     float bound = float(load(mesh.sizes[low]) + rise * std::sqrt(length2()));
