@@ -44,8 +44,8 @@ constexpr int kMends = 5;
 constexpr double kMended = 0.9;
 
 /// Of a lower mean quality are bodies filled with needles from side to side: halving the edges of
-/// their surface in bulk would divide each needle many times.
-constexpr double kOfNeedles = 0.25;
+/// their surface in bulk would divide each needle many times. Above, bulk does as well.
+constexpr double kOfNeedles = 0.1;
 
 /// A budget of tets is met when it is exceeded by no more than this share.
 constexpr double kBudgetMargin = 0.1;
