@@ -19,6 +19,9 @@ constexpr double kSmallFaceAngle = 12;
 /// An edge between feature curves that is shorter than this, in wanted lengths, cannot be
 /// collapsed, and its tets are needles.
 constexpr double kNarrow = 0.3;
+/// The same where it is shorter than this share of the longest edge of its tet: if all others are
+/// alike, the quality is at most 0.3.
+constexpr double kNeedle = 0.2;
 /// Cosine between the way through a wall and the normals of its sides, 45 degrees.
 constexpr double kThrough = 0.7;
 
@@ -81,18 +84,23 @@ double sharpest_tip(OperatorContext& c, TetId t) {
 /// does.
 struct Bridge {
   double length = 0, in_sizes = std::numeric_limits<double>::infinity();
+  double of_longest = 1;  ///< edge of the tet
 };
 
 Bridge shortest_bridge(OperatorContext& c, TetId t) {
   constexpr Tag kOnCurve =
       tag::kCorner | tag::kRidge | tag::kReferenceEdge | tag::kNonManifold | tag::kRequired;
   Bridge shortest;
+  double longest = 0;
   for (const auto& e : kEdgeVertices) {
     const VertexId a = c.mesh.tets[t][e[0]], b = c.mesh.tets[t][e[1]];
+    const double length = distance(c.point(a), c.point(b));
+    longest = std::max(longest, length);
     if (!(c.tags(a) & kOnCurve) || !(c.tags(b) & kOnCurve)) continue;
     const double in_sizes = c.length(a, b);
-    if (in_sizes < shortest.in_sizes) shortest = {distance(c.point(a), c.point(b)), in_sizes};
+    if (in_sizes < shortest.in_sizes) shortest = {length, in_sizes};
   }
+  if (longest > 0 && shortest.length > 0) shortest.of_longest = shortest.length / longest;
   return shortest;
 }
 
@@ -150,7 +158,7 @@ std::string obstacle_at(OperatorContext& c, TetId t) {
     return fmt::format("the surface meets itself at {:.3g} degrees", angle);
   if (const double angle = sharpest_tip(c, t); angle < kSmallFaceAngle)
     return fmt::format("feature curves meet at {:.3g} degrees", angle);
-  if (const Bridge b = shortest_bridge(c, t); b.in_sizes < kNarrow)
+  if (const Bridge b = shortest_bridge(c, t); b.in_sizes < kNarrow || b.of_longest < kNeedle)
     return fmt::format("feature curves or corners are {:.3g} apart, {:.2g} of the wanted length",
                        b.length, b.in_sizes);
   const Width width = width_of(c.mesh.corners(t));

@@ -21,9 +21,11 @@ std::vector<Box> boxes_of(std::span<const Sheets::Corners> triangles) {
 
 }  // namespace
 
-Sheets::Sheets(std::vector<Corners> triangles, std::vector<std::array<std::int32_t, 3>> vertices)
+Sheets::Sheets(std::vector<Corners> triangles, std::vector<std::array<std::int32_t, 3>> vertices,
+               std::vector<char> one_sided)
     : triangles_(std::move(triangles)),
       vertices_(std::move(vertices)),
+      one_sided_(std::move(one_sided)),
       normals_(triangles_.size()),
       tree_(boxes_of(triangles_)) {
   parallel_for(normals_.size(), [&](std::size_t t) {
@@ -39,7 +41,10 @@ bool Sheets::apart(std::size_t s, std::size_t t) const {
 }
 
 bool Sheets::may_face(std::size_t t, std::size_t s, const Facing& facing) const {
-  return dot(normals_[s], normals_[t]) <= facing.normals_cosine && apart(s, t);
+  const double cosine = dot(normals_[s], normals_[t]);
+  // Which way the normal of an interface points is chance.
+  const double turned = one_sided_[s] && one_sided_[t] ? cosine : -std::abs(cosine);
+  return turned <= facing.normals_cosine && apart(s, t);
 }
 
 void Sheets::improve(std::size_t t, const Vec3& place, std::size_t s, const Facing& facing,

@@ -20,12 +20,16 @@ class Sheets {
   struct Facing {
     double side = 1;            ///< 1: ahead, where its normal points; -1: behind
     double cone_cosine = 0;     ///< of the angle between that way and the one to it, at least
-    double normals_cosine = 0;  ///< of the angle between the two normals, at most
+    double normals_cosine = 0;  ///< of the angle between the two normals, at most, whichever way
+                                ///< those of two-sided triangles point
   };
   static constexpr double kNothing = std::numeric_limits<double>::infinity();
 
   /// \param vertices three ids each: triangles with a common one are never opposite each other
-  Sheets(std::vector<Corners> triangles, std::vector<std::array<std::int32_t, 3>> vertices);
+  /// \param one_sided whether there is volume on one side of the triangle only, so that its normal
+  /// tells where
+  Sheets(std::vector<Corners> triangles, std::vector<std::array<std::int32_t, 3>> vertices,
+         std::vector<char> one_sided);
 
   /// Distance from a place on triangle t to the nearest sheet opposite; kNothing where that is not
   /// less than `reach`.
@@ -50,6 +54,7 @@ class Sheets {
 
   std::vector<Corners> triangles_;
   std::vector<std::array<std::int32_t, 3>> vertices_;
+  std::vector<char> one_sided_;
   std::vector<Vec3> normals_;
   BoxTree tree_;
 };

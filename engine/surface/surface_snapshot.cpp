@@ -36,7 +36,7 @@ SurfaceModel::SurfaceModel(TetMesh& mesh, const Settings& settings) : settings_(
   take_facets(mesh);
   link_facets();
   set_normals(given_normals(mesh));
-  sheets_.emplace(all_corners(), facets_);
+  sheets_.emplace(all_corners(), facets_, facet_exterior_);
   set_tolerances();
   set_tangents();
   set_control_points();

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "cavea/surface/patch_tree.h"
@@ -305,6 +306,40 @@ TEST(SurfaceModel, ThinWallsWantSizesOfTheirThickness) {
   const auto thick = modelled_cube(3);
   for (const Anchor& a : thick.mesh.anchors)
     EXPECT_GE(thick.model.size(a), a.facet == kNone ? 0 : 1);
+}
+
+/// A cube of three layers of tets, the middle one thin and of another reference than those beside
+/// it; which way the normals of an interface point follows from the order of the references.
+TetMesh layered(const std::array<std::int32_t, 3>& refs, double thickness) {
+  MeshData data = kuhn_cube(3);
+  for (std::size_t t = 0; t < data.tets.size(); ++t) {
+    double z = 0;
+    for (const int v : data.tets[t]) z += data.vertices[std::size_t(v)].z / 4;
+    data.tet_refs[t] = refs[std::size_t(3 * z)];
+  }
+  for (Vec3& p : data.vertices)
+    p.z = p.z < 0.5 ? 1.5 * p.z : 0.5 + (p.z > 0.9 ? 0.5 : 0) + thickness;
+  return build(data).mesh;
+}
+
+TEST(SurfaceModel, ThinLayersWantSizesOfTheirThicknessWhicheverTheirReferences) {
+  constexpr double kThick = 0.02;
+  for (const auto& refs : {std::array{1, 2, 3},
+                           {1, 3, 2},
+                           {2, 1, 3},
+                           {2, 3, 1},
+                           {3, 1, 2},
+                           {3, 2, 1},
+                           {1, 2, 1},
+                           {2, 1, 2}}) {
+    const auto thin = modelled(layered(refs, kThick));
+    for (std::size_t v = 0; v < thin.mesh.points.size(); ++v) {
+      const double z = thin.mesh.points[v].z;
+      if (z < 0.49 || z > 0.53) continue;
+      EXPECT_LE(thin.model.size(thin.mesh.anchors[v]), 1.5 * kThick) << refs[0] << refs[1];
+      EXPECT_GE(thin.model.size(thin.mesh.anchors[v]), kThick);
+    }
+  }
 }
 
 TEST(SurfaceModel, ToleranceKeepsSheetsApart) {
