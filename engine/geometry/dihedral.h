@@ -33,8 +33,8 @@ inline std::array<int, 6> edges_by_dihedral(const std::array<Vec3, 4>& x) {
     cosine[std::size_t(e)] = -dot(n[i], n[j]) / (length[i] * length[j]);
   }
   std::sort(order.begin(), order.end(), [&](int a, int b) {
-    const double x = cosine[std::size_t(a)], y = cosine[std::size_t(b)];
-    return x < y || (x == y && a < b);
+    const double of_a = cosine[std::size_t(a)], of_b = cosine[std::size_t(b)];
+    return of_a < of_b || (of_a == of_b && a < b);
   });
   return order;
 }
