@@ -282,7 +282,8 @@ Verdict relocate_in_ball(OperatorContext& c, VertexId v, NewVertex& to) {
 Verdict shake(OperatorContext& c, VertexId v, double below, double floor, NewVertex& to) {
   constexpr double kStep = 0.2;  // of the wanted size
   const Tag tags = c.tags(v);
-  if (tags & (tag::kFrozen | tag::kSurface | tag::kCorner | tag::kRequired)) return Verdict::kFrozen;
+  if (tags & (tag::kFrozen | tag::kSurface | tag::kCorner | tag::kRequired))
+    return Verdict::kFrozen;
   if (now(c).sum > below * double(c.ball.tets.size())) return Verdict::kNotNeeded;
   prepare_star(c, v);
   to = {c.point(v), c.mesh.sizes[v], tags, c.mesh.vertex_refs[v], c.mesh.anchors[v]};

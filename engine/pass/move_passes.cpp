@@ -69,7 +69,8 @@ std::vector<char> in_poor_balls(const TetMesh& m, double below) {
   return poor;
 }
 
-/// Offers chosen vertices, whose ball is in the context, a place: f(v, to) tells whether to take it.
+/// Offers chosen vertices, whose ball is in the context, a place: f(v, to) tells whether to take
+/// it.
 template <class F>
 std::int64_t move_chosen(PartState& s, const std::vector<char>& chosen, F&& f) {
   if (std::ranges::find(chosen, 1) == chosen.end()) return 0;

@@ -117,6 +117,7 @@ class SurfaceModel {
   std::vector<Box> curve_boxes() const;
   std::vector<Vec3> given_normals(const TetMesh& mesh) const;
   void set_normals(const std::vector<Vec3>& given);
+  void set_normals_at(std::int32_t v, const Vec3& given);
   void set_tolerances();
   void set_tangents();
   void set_control_points();

@@ -145,32 +145,35 @@ std::vector<Vec3> SurfaceModel::given_normals(const TetMesh& mesh) const {
 /// not. Where the fan is all there is at the vertex, a given normal is right, but for its
 /// direction: of an interface no side is the outer one.
 void SurfaceModel::set_normals(const std::vector<Vec3>& given) {
+  normals_.assign(facets_.size(), {});
+  parallel_for(points_.size(), [&](std::size_t v) { set_normals_at(std::int32_t(v), given[v]); });
+}
+
+/// Each fan once, for all of its facets.
+void SurfaceModel::set_normals_at(std::int32_t v, const Vec3& given) {
   constexpr double kShort = 0.05;  // of the fan's mean squared length
-  auto angle = [&](std::int32_t f, std::int32_t v) {
-    return angle_at(facet_corners(f), facets_[f][0] == v ? 0 : facets_[f][1] == v ? 1 : 2);
-  };
-  normals_.resize(facets_.size());
-  parallel_for(facets_.size(), [&](std::size_t i) {
-    const auto f = std::int32_t(i);
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t v = facets_[f][k];
-      double length2 = 0;
-      std::int32_t fan = 0;
-      auto for_all = [&](auto&& work) {
-        work(f);
-        for_fan(f, k, true, work);
-      };
-      for_all([&](std::int32_t g) { length2 += angle(g, v).mean_length2(), ++fan; });
-      Vec3 sum;
-      for_all([&](std::int32_t g) { sum += angle(g, v).share_of_normal(kShort * length2 / fan); });
-      const Vec3 own = cross(angle(f, v).to_next, angle(f, v).to_last);
-      const bool whole = fan == vertex_first_[v + 1] - vertex_first_[v];
-      const double along = whole ? dot(given[v], sum) : 0;
-      normals_[f][k] = along > 0 ? given[v] : along < 0 ? -given[v] : normalized(sum);
+  auto corner = [&](std::int32_t f) { return facets_[f][0] == v ? 0 : facets_[f][1] == v ? 1 : 2; };
+  auto angle = [&](std::int32_t f) { return angle_at(facet_corners(f), corner(f)); };
+  const std::int32_t facets = vertex_first_[v + 1] - vertex_first_[v];
+  std::vector<std::int32_t> fan;
+  for (std::int32_t i = 0; i < facets; ++i) {
+    const std::int32_t first = vertex_facets_[vertex_first_[v] + i];
+    if (norm2(normals_[first][corner(first)]) > 0) continue;  // of a fan before
+    fan.assign(1, first);
+    for_fan(first, corner(first), true, [&](std::int32_t f) { fan.push_back(f); });
+    double length2 = 0;
+    for (const std::int32_t f : fan) length2 += angle(f).mean_length2();
+    Vec3 sum;
+    for (const std::int32_t f : fan)
+      sum += angle(f).share_of_normal(kShort * length2 / double(fan.size()));
+    const double along = std::int32_t(fan.size()) == facets ? dot(given, sum) : 0;
+    const Vec3 normal = along > 0 ? given : along < 0 ? -given : normalized(sum);
+    for (const std::int32_t f : fan) {
+      const Vec3 own = cross(angle(f).to_next, angle(f).to_last);
       // A fan that folds over itself has no normal to speak of; the facet's own keeps it flat here.
-      if (dot(normals_[f][k], own) <= 0) normals_[f][k] = normalized(own);
+      normals_[f][corner(f)] = dot(normal, own) > 0 ? normal : normalized(own);
     }
-  });
+  }
 }
 
 double SurfaceModel::hausd_of(std::int32_t reference) const {
