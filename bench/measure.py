@@ -81,6 +81,16 @@ def default_program():
     return os.path.join(root, "build", "release", "bin", "cavea")
 
 
+def box_diagonal(name):
+    """Of the vertices of a Medit text file."""
+    with open(name, encoding="ascii") as file:
+        words = iter(file.read().split())
+    next(word for word in words if word == "Vertices")
+    points = [[float(next(words)) for _ in range(4)] for _ in range(int(next(words)))]
+    axes = list(zip(*points))[:3]
+    return math.dist([min(axis) for axis in axes], [max(axis) for axis in axes])
+
+
 def write_kuhn_cube(name, n):
     """The unit cube in n^3 bricks of six tets each, as a Medit file."""
     m = n + 1
