@@ -29,8 +29,9 @@ void BoxTree::sort_level(int level, std::vector<Centre>& all) const {
         for (std::size_t slot = begin; slot < end; ++slot) centres.add(all[slot].twice);
         const Vec3 side = centres.high - centres.low;
         const auto part = [&](double Vec3::*axis) {
-          const auto first = all.begin();
-          std::nth_element(first + begin, first + range(level + 1, 2 * k).second, first + end,
+          const auto at = [&](std::size_t slot) { return all.begin() + std::ptrdiff_t(slot); };
+          const auto [low, high] = range(level, k);
+          std::nth_element(at(low), at(range(level + 1, 2 * k).second), at(high),
                            [&](const Centre& a, const Centre& b) {
                              const double x = a.twice.*axis, y = b.twice.*axis;
                              return x < y || (x == y && a.box < b.box);

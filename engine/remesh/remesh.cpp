@@ -37,7 +37,7 @@ namespace {
 constexpr double kMeasuredShare = 0.95;
 
 /// Places that are still too far from the surface after this many repairs are left and reported.
-constexpr int kRepairs = 7;
+constexpr int kRepairs = 10;
 
 /// Poor tets are mended at most so often, each time unless more than this share of them stayed so.
 constexpr int kMends = 5;

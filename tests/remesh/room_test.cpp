@@ -7,7 +7,7 @@ namespace {
 /// A bar of square section, 6 times as long as wide, whose section is one cell.
 MeshData bar() {
   MeshData data = kuhn_grid(6, [](int, int j, int k) { return j == 0 && k == 0; });
-  for (Vec3& p : data.vertices) p = {p.x, p.y * 0.9, p.z * 0.8};
+  for (Vec3& p : data.vertices) p = {p.x, p.y * 0.9, p.z * 0.6};
   return data;
 }
 
