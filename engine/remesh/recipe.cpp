@@ -46,7 +46,6 @@ Phase rough(const ResolvedOptions& o) {
 Phase fine(const ResolvedOptions& o) {
   Phase p{"fine", base(o), 3, 0.035, 8};
   p.cycle.shake_below = 0.72;
-  p.cycle.settled = 0.03;  // the round after it asks the rest, with other interfaces
   p.ask = tet_flag::kAskLength;
   p.cycle.limits.shortest_made = 0.6;
   p.cycle.limits.quality_ratio = 0.7;
