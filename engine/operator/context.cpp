@@ -4,6 +4,17 @@
 
 namespace cavea {
 
+void prepare_star(OperatorContext& c) {
+  const VertexId v = c.ball.v;
+  c.star.clear();
+  for (TetId t : c.ball.tets) {
+    const auto& k = c.mesh.tets[t];
+    const int* f = kFaceVertices[c.mesh.local_index(t, v)];
+    c.star.add(c.point(k[f[0]]), c.point(k[f[1]]), c.point(k[f[2]]));
+  }
+  c.star.prepare(c.mesh.sizes[v]);
+}
+
 SurfaceFit fit_triangle(const OperatorContext& context, const std::array<Vec3, 3>& t, int patch,
                         std::span<const Anchor> hints, unsigned sides) {
   constexpr SurfaceFit kNoFit{-1, std::numeric_limits<double>::infinity()};

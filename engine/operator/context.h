@@ -43,7 +43,7 @@ struct OperatorContext {
   std::vector<TriangleId> fan;
   std::vector<float> qualities;
   SmallPolyhedron polyhedron;  ///< of the cavity that is reconnected
-  Star star;                   ///< of the ball, while its vertex is relocated
+  Star star;                   ///< of the ball, while places for its vertex are tried
 
   Vec3 point(VertexId v) const { return mesh.points[v]; }
   Tag tags(VertexId v) const { return mesh.vertex_tags[v]; }
@@ -73,6 +73,9 @@ struct OperatorContext {
     return std::min(limits.quality_floor, limits.quality_ratio * before);
   }
 };
+
+/// Makes context.star the faces of context.ball opposite its vertex, ready for qualities.
+void prepare_star(OperatorContext& context);
 
 /// An operation for the sake of quality must raise the worst quality of its cavity by at least this
 /// factor; smaller gains would let operations go to and fro.

@@ -23,17 +23,6 @@ struct BallQuality {
   double worst = 1, sum = 0;
 };
 
-/// The faces of the ball opposite v, ready for qualities.
-void prepare_star(OperatorContext& c, VertexId v) {
-  c.star.clear();
-  for (TetId t : c.ball.tets) {
-    const auto& k = c.mesh.tets[t];
-    const int* f = kFaceVertices[c.mesh.local_index(t, v)];
-    c.star.add(c.point(k[f[0]]), c.point(k[f[1]]), c.point(k[f[2]]));
-  }
-  c.star.prepare(c.mesh.sizes[v]);
-}
-
 /// Mean, weighted towards bad tets, of the places of the vertex that would make each tet of its
 /// ball as regular as its face opposite allows.
 Vec3 ideal_place(const OperatorContext& c) {
@@ -271,7 +260,7 @@ Verdict relocate_in_ball(OperatorContext& c, VertexId v, NewVertex& to) {
   if ((tags & tag::kSurface) && c.limits.surface_frozen) return Verdict::kBreaksFeature;
   if (tags & tag::kPinched) return Verdict::kBreaksTopology;
   if (c.ball.cut) return Verdict::kFrozen;
-  prepare_star(c, v);
+  prepare_star(c);
   to = {c.point(v), c.mesh.sizes[v], tags, c.mesh.vertex_refs[v], c.mesh.anchors[v]};
   const Verdict verdict =
       tags & tag::kSurface ? relocate_on_surface(c, v, to) : relocate_inside(c, v, to);
@@ -285,7 +274,7 @@ Verdict shake(OperatorContext& c, VertexId v, double below, double floor, NewVer
   if (tags & (tag::kFrozen | tag::kSurface | tag::kCorner | tag::kRequired))
     return Verdict::kFrozen;
   if (now(c).sum > below * double(c.ball.tets.size())) return Verdict::kNotNeeded;
-  prepare_star(c, v);
+  prepare_star(c);
   to = {c.point(v), c.mesh.sizes[v], tags, c.mesh.vertex_refs[v], c.mesh.anchors[v]};
   to.point += kStep * to.size * direction_of(to.point);
   BallQuality after;

@@ -108,13 +108,7 @@ class CollapsePass {
     spokes_.resize(std::min(spokes_.size(), kMostCompared));
     const Ball& ball = s_.context.ball;
     Star& star = s_.context.star;
-    star.clear();
-    for (const TetId t : ball.tets) {
-      const auto& k = m_.tets[t];
-      const int* f = kFaceVertices[m_.local_index(t, ball.v)];
-      star.add(m_.points[k[f[0]]], m_.points[k[f[1]]], m_.points[k[f[2]]]);
-    }
-    star.prepare(m_.sizes[ball.v]);
+    prepare_star(s_.context);
     for (Spoke& spoke : spokes_) {
       star.evaluate(m_.points[spoke.to]);
       spoke.worst = 1;
