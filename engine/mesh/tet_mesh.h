@@ -71,6 +71,8 @@ inline constexpr Tag kWasInterface = 512;
 inline constexpr Tag kPinched = 1024;
 /// Triangle between tets of one reference, kept on request.
 inline constexpr Tag kInternal = 2048;
+/// Vertex that was on the interface between parts in some round; for statistics.
+inline constexpr Tag kMetInterface = 4096;
 /// What makes a surface edge one that patches end at.
 inline constexpr Tag kFeature = kRidge | kReferenceEdge | kNonManifold | kRequired;
 }  // namespace tag
@@ -192,6 +194,8 @@ inline constexpr std::uint8_t kAskAll = kAskSwap | kAskMove | kAskLength;
 /// Something was refused because the interface of the part is near: ask all again when it has
 /// moved.
 inline constexpr std::uint8_t kAskLater = 16;
+/// Refused so when it was last asked.
+inline constexpr std::uint8_t kBlocked = 32;
 }  // namespace tet_flag
 
 }  // namespace cavea

@@ -19,6 +19,7 @@ std::vector<std::int32_t> vertex_parts(const TetMesh& mesh,
                                        const std::vector<std::int32_t>& labels) {
   std::vector<std::int32_t> part(mesh.points.size(), kUnseen);
   parallel_for(mesh.tets.size(), [&](std::size_t t) {
+    if (!mesh.tet_alive(TetId(t))) return;
     for (VertexId v : mesh.tets[t]) {
       std::atomic_ref ref(part[v]);
       std::int32_t seen = ref.load(std::memory_order_relaxed);

@@ -26,8 +26,9 @@ struct Part {
   std::vector<Partner> partners;
 };
 
-/// Copies the labelled tets of a mesh, by a label in [0, parts) or kIdle for each. No holes in
-/// `mesh`. Parallel over parts; the parts depend on the mesh and the labels alone.
+/// Copies the labelled tets of a mesh, by a label in [0, parts) or kIdle for each, as for holes.
+/// The mesh may be a part itself. Parallel over parts, which depend on the mesh and the labels
+/// alone.
 std::vector<Part> extract_parts(const TetMesh& mesh, const std::vector<std::int32_t>& labels,
                                 int parts);
 

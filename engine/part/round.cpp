@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <functional>
 #include <utility>
 
 #include "cavea/base/ids_where.h"
 #include "cavea/base/parallel.h"
 #include "cavea/mesh/compact.h"
-#include "cavea/mesh/fill_holes.h"
-#include "cavea/mesh/local.h"
-#include "cavea/mesh/renumber.h"
 #include "cavea/mesh/wanted_tets.h"
 #include "cavea/part/extract.h"
+#include "cavea/part/region.h"
+#include "cavea/part/run_parts.h"
 #include "cavea/partition/blocks.h"
 
 namespace cavea {
@@ -26,10 +24,6 @@ constexpr std::int64_t kTetsPerPart = 64000;
 constexpr int kManyParts = 16;
 constexpr std::int64_t kManyPartsAbove = 100000;
 
-/// So many layers of tets around those that are asked take part: the first so that their balls are
-/// whole, the others so that what changes there can be answered to.
-constexpr int kLayers = 2;
-
 /// Whether a cycle with these settings would ask the tet something.
 bool is_asked(const TetMesh& m, std::size_t t, const CycleSettings& s) {
   const std::uint8_t flags = m.tet_flags[t];
@@ -38,72 +32,11 @@ bool is_asked(const TetMesh& m, std::size_t t, const CycleSettings& s) {
          ((flags & tet_flag::kAskMove) && m.qualities[t] <= s.move_ceiling);
 }
 
-template <class Id>
-void sort_unique(std::vector<Id>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
-
-/// Few tets and those around, by their balls.
-std::vector<TetId> with_layers_of_few(const TetMesh& m, std::vector<TetId> tets) {
-  for (int layer = 0; layer < kLayers; ++layer) {
-    std::vector<VertexId> vertices;
-    for (const TetId t : tets) vertices.insert(vertices.end(), m.tets[t].begin(), m.tets[t].end());
-    sort_unique(vertices);
-    for (const VertexId v : vertices) {
-      const std::vector<TetId> ball = small_ball(m, v);
-      tets.insert(tets.end(), ball.begin(), ball.end());
-    }
-    sort_unique(tets);
-  }
-  return tets;
-}
-
-/// Many tets and those around, by marks on all.
-std::vector<TetId> with_layers_of_many(const TetMesh& m, const std::vector<TetId>& tets) {
-  std::vector<std::uint8_t> active(m.tets.size(), 0), near(m.points.size(), 0);
-  parallel_for(tets.size(), [&](std::size_t i) { active[tets[i]] = 1; });
-  for (int layer = 0; layer < kLayers; ++layer) {
-    parallel_for(m.tets.size(), [&](std::size_t t) {
-      if (!active[t]) return;
-      for (const VertexId v : m.tets[t])
-        std::atomic_ref(near[v]).store(1, std::memory_order_relaxed);
-    });
-    parallel_for(m.tets.size(), [&](std::size_t t) {
-      for (const VertexId v : m.tets[t]) active[t] |= near[v];
-    });
-  }
-  return ids_where(active.size(), [&](TetId t) { return active[t] != 0; });
-}
-
-/// Where less than this share of the mesh is asked, or is holes, it is worth not to touch the rest.
-constexpr std::size_t kFew = 64;
-
 /// The tets that are asked something and those around, ascending.
 std::vector<TetId> active_tets(const TetMesh& m, const CycleSettings& settings) {
-  std::vector<TetId> asked =
-      ids_where(m.tets.size(), [&](TetId t) { return is_asked(m, std::size_t(t), settings); });
-  if (asked.size() == m.tets.size()) return asked;
-  return kFew * asked.size() < m.tets.size() ? with_layers_of_few(m, std::move(asked))
-                                             : with_layers_of_many(m, asked);
-}
-
-std::size_t count_holes(const TetMesh& m) {
-  return parallel_reduce(
-      m.tets.size(), std::size_t{0},
-      [&](std::size_t begin, std::size_t end) {
-        std::size_t n = 0;
-        for (std::size_t t = begin; t < end; ++t) n += !m.tet_alive(TetId(t));
-        return n;
-      },
-      std::plus<>{});
-}
-
-/// \param part_of by tet, kept in step
-void remove_holes(TetMesh& m, std::vector<std::int32_t>& part_of) {
-  if (kFew * count_holes(m) < m.tets.size()) return fill_holes(m, &part_of);
-  living_tets(m).keep_in(part_of);
-  compact(m);
+  return with_layers(
+      m, ids_where(m.tets.size(), [&](TetId t) { return is_asked(m, std::size_t(t), settings); }),
+      kLayers);
 }
 
 /// A part for each of the tets, kIdle for those that are not in the list.
@@ -156,7 +89,8 @@ RoundResult run_whole(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
 
 }  // namespace
 
-int part_count(std::int64_t tets) {
+int part_count(std::int64_t tets, std::int64_t tets_per_part) {
+  if (tets_per_part > 0) return int((tets + tets_per_part - 1) / tets_per_part);
   if (tets < kOnePart) return 1;
   const std::int64_t by_size = (tets + kTetsPerPart - 1) / kTetsPerPart;
   if (tets > kManyPartsAbove) return int(std::max<std::int64_t>(by_size, kManyParts));
@@ -164,7 +98,7 @@ int part_count(std::int64_t tets) {
 }
 
 RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings,
-                      std::vector<std::int32_t>* part_of_tet) {
+                      std::vector<std::int32_t>* part_of_tet, std::int64_t tets_per_part) {
   // Memory that is not to be held beside the parts is given back; an empty list would keep it.
   if (part_of_tet) *part_of_tet = std::vector<std::int32_t>();
   std::vector<TetId> active = active_tets(mesh, settings);
@@ -172,7 +106,7 @@ RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
     if (part_of_tet) part_of_tet->assign(mesh.tets.size(), kIdle);
     return {{}, 0};
   }
-  const int count = part_count(std::int64_t(active.size()));
+  const int count = part_count(std::int64_t(active.size()), tets_per_part);
   if (count == 1 && 2 * active.size() > mesh.tets.size()) {
     const RoundResult result = run_whole(mesh, surface, settings);
     if (part_of_tet) part_of_tet->assign(mesh.tets.size(), 0);
@@ -182,30 +116,12 @@ RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
   std::vector<std::int32_t> labels = label_parts(mesh, active, count);
   active = std::vector<TetId>();
   std::vector<Part> parts = extract_parts(mesh, std::exchange(labels, {}), count);
-  std::vector<CycleResult> results(parts.size());
-  // Largest first, so that the last to finish is small.
-  std::vector<std::size_t> order(parts.size());
-  for (std::size_t p = 0; p < order.size(); ++p) order[p] = p;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return parts[a].mesh.tets.size() > parts[b].mesh.tets.size();
-  });
-  parallel_tasks(parts.size(), [&](std::size_t i) {
-    Part& part = parts[order[i]];
-    if (part.mesh.tets.empty()) return;
-    results[order[i]] = run_cycle(part.mesh, surface, settings);
-  });
+  const CycleResult cycle = run_parts(parts, surface, settings);
   std::vector<std::int32_t> part_of(mesh.tets.size(), kIdle);
   stitch_parts(mesh, parts, part_of);
   remove_holes(mesh, part_of);
   if (part_of_tet) *part_of_tet = std::move(part_of);
-  RoundResult result;
-  result.parts = count;
-  for (const CycleResult& r : results) {
-    result.cycle.verdicts += r.verdicts;
-    result.cycle.changes += r.changes;
-    result.cycle.full |= r.full;
-  }
-  return result;
+  return {cycle, count};
 }
 
 }  // namespace cavea

@@ -5,7 +5,8 @@
 namespace cavea {
 
 /// Number of parts for a mesh: a function of its size alone, never of the threads.
-int part_count(std::int64_t tets);
+/// \param tets_per_part if not 0, what a part is to have
+int part_count(std::int64_t tets, std::int64_t tets_per_part = 0);
 
 struct RoundResult {
   CycleResult cycle;
@@ -17,8 +18,9 @@ struct RoundResult {
 /// that were interface in the round before are spared by the cut, so that what was frozen moves
 /// into the interior. `settings.most_tets` is per part. The result has no holes and does not depend
 /// on the number of threads. \param part_of_tet if not null, the part that each tet of the result
-/// came from, kIdle for those of none. \throw Cancelled
+/// came from, kIdle for those of none. \param tets_per_part as of part_count() \throw Cancelled
 RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings,
-                      std::vector<std::int32_t>* part_of_tet = nullptr);
+                      std::vector<std::int32_t>* part_of_tet = nullptr,
+                      std::int64_t tets_per_part = 0);
 
 }  // namespace cavea

@@ -134,6 +134,16 @@ class Stitch {
     parts_[p] = {};
   }
 
+  /// The tags of local vertex v, which is vertex `to` of the mesh.
+  Tag stitched_tags(std::size_t p, std::size_t v, VertexId to) const {
+    const Part& part = parts_[p];
+    Tag tags = Tag(part.mesh.vertex_tags[v] & ~(tag::kFrozen | tag::kWasInterface));
+    if (shared(part, v)) tags |= tag::kWasInterface | tag::kMetInterface;
+    const bool was_there = v < part.own_vertices.size() + part.shared_vertices.size();
+    // The mesh may be a part itself, whose interface stays frozen.
+    return was_there ? Tag(tags | (mesh_.vertex_tags[to] & tag::kFrozen)) : tags;
+  }
+
   void write_vertices(std::size_t p) {
     const Part& part = parts_[p];
     const TetMesh& m = part.mesh;
@@ -145,8 +155,7 @@ class Stitch {
       if (to == kNone || (is_shared && vertex_owner_[to] != std::int32_t(p))) continue;
       mesh_.points[to] = m.points[v];
       mesh_.sizes[to] = m.sizes[v];
-      mesh_.vertex_tags[to] = Tag((m.vertex_tags[v] & ~(tag::kFrozen | tag::kWasInterface)) |
-                                  (is_shared ? tag::kWasInterface : 0));
+      mesh_.vertex_tags[to] = stitched_tags(p, v, to);
       mesh_.vertex_refs[to] = m.vertex_refs[v];
       mesh_.vertex_tets[to] = ids_[p].tets.of_local[m.vertex_tets[v]];
       mesh_.anchors[to] = m.anchors[v];
@@ -184,6 +193,7 @@ class Stitch {
     const Part::Partner partner = parts_[p].partners[std::size_t(cut.cut())];
     if (partner.part != kIdle) return;
     const FaceLink idle = FaceLink::from_code(partner.cut);
+    if (idle.is_cut()) return;  // of the mesh, which is a part
     mesh_.links[idle.tet()][idle.face()] = face;
   }
 
@@ -203,7 +213,8 @@ class Stitch {
         continue;
       }
       for (VertexId& v : s.v) v = ids.vertices.of_local[v];
-      s.tags &= Tag(~tag::kFrozen);
+      const bool was_there = t < parts_[p].triangles.size();
+      s.tags = Tag((s.tags & ~tag::kFrozen) | (was_there ? to.tags & tag::kFrozen : 0));
       to = s;
     }
   }

@@ -74,7 +74,7 @@ class CollapsePass {
     if (!m_.vertex_alive(v)) return false;
     const TetId tet = shortest_[v].tet;
     if (m_.vertex_tags[v] & tag::kFrozen) {
-      if (m_.tet_alive(tet)) m_.tet_flags[tet] |= tet_flag::kAskLater;
+      if (m_.tet_alive(tet)) s_.block(tet);
       s_.count(Operator::kEdgeCollapse, Verdict::kFrozen);
       return false;
     }
@@ -125,7 +125,7 @@ class CollapsePass {
   bool collapse(const Spoke& spoke) {
     gather_edge(spoke);
     const Verdict v = edge_collapse_of_ball(s_.context, false, s_.cavity);
-    if (v == Verdict::kFrozen) m_.tet_flags[spoke.tet] |= tet_flag::kAskLater;
+    if (v == Verdict::kFrozen) s_.block(spoke.tet);
     if (!s_.count(Operator::kEdgeCollapse, v)) return false;
     s_.commit();
     return true;

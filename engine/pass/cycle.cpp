@@ -6,6 +6,7 @@
 namespace cavea {
 
 CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings) {
+  for (std::uint8_t& flags : mesh.tet_flags) flags &= std::uint8_t(~tet_flag::kBlocked);
   PartState state(mesh, surface, settings);
   for (int sweep = 0; sweep < settings.sweeps; ++sweep) {
     if (settings.cancel && settings.cancel->load(std::memory_order_relaxed)) throw Cancelled();

@@ -47,8 +47,8 @@ std::vector<char> take_asked(PartState& s) {
     if (m.qualities[t] > s.settings.move_ceiling) continue;
     m.tet_flags[t] &= std::uint8_t(~tet_flag::kAskMove);
     for (const VertexId v : m.tets[t]) {
-      if (m.vertex_tags[v] & tag::kFrozen)
-        m.tet_flags[t] |= tet_flag::kAskLater;
+      if (s.at_interface(v))
+        s.block(TetId(t));
       else
         asked[v] = 1;
     }

@@ -15,6 +15,10 @@ struct PartState {
     result.verdicts.add(o, v);
     return v == Verdict::kAccept;
   }
+  bool at_interface(VertexId v) const { return context.tags(v) & tag::kFrozen; }
+  /// To be called when an operator has refused the tet because the interface is in the way, which
+  /// will move. Required edges, which operators refuse alike, stay.
+  void block(TetId t) { mesh().tet_flags[t] |= tet_flag::kAskLater | tet_flag::kBlocked; }
   void commit() {
     editor.commit(cavity);
     ++result.changes;

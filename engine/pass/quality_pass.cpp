@@ -83,7 +83,12 @@ class QualityQueue {
     if (bad && s_.settings.collapse && collapse_for_quality(t)) return;
     const bool poor = quality < s_.settings.reconnect_below;
     if (poor && s_.settings.swap && reconnect_for_quality(t)) return;
-    if (bad && s_.settings.insert) star_for_quality(t);
+    if (bad && s_.settings.insert && star_for_quality(t)) return;
+    if (bad && is_at_interface(t)) s_.block(t);
+  }
+
+  bool is_at_interface(TetId t) const {
+    return std::ranges::any_of(m_.tets[t], [&](VertexId v) { return s_.at_interface(v); });
   }
 
   bool swap(TetId t, double quality) {
@@ -100,19 +105,24 @@ class QualityQueue {
   }
 
   bool swap_edge(TetId t, int i, int j) {
-    if (s_.context.frozen_edge(m_.tets[t][i], m_.tets[t][j])) {
-      m_.tet_flags[t] |= tet_flag::kAskLater;
+    const VertexId a = m_.tets[t][i], b = m_.tets[t][j];
+    if (s_.context.frozen_edge(a, b)) {
+      if (s_.at_interface(a) && s_.at_interface(b)) s_.block(t);
       return false;
     }
     gather_shell(m_, t, i, j, s_.context.shell);
     if (asked_before(s_.context.shell.tets)) return false;
-    if (!s_.count(Operator::kEdgeSwap, edge_swap(s_.context, s_.cavity))) return false;
+    const Verdict v = edge_swap(s_.context, s_.cavity);
+    // The edge is free: the one on the surface that would come is not.
+    if (v == Verdict::kFrozen && is_at_interface(t)) s_.block(t);
+    if (!s_.count(Operator::kEdgeSwap, v)) return false;
     committed();
     return true;
   }
 
   bool swap_face(TetId t, int f) {
     const FaceLink other = m_.links[t][f];
+    if (other.is_cut()) s_.block(t);
     if (!other.is_tet()) return false;
     if (asked_[other.tet()] > std::max(changed_[t], changed_[other.tet()])) return false;
     if (!s_.count(Operator::kFaceSwap, face_swap(s_.context, t, f, s_.cavity))) return false;

@@ -118,7 +118,8 @@ std::int64_t split_pass(PartState& s) {
       return Outcome::kRefused;
     }
     const Verdict v = edge_split(s.context, s.editor.next_vertex(), s.cavity);
-    if (v == Verdict::kFrozen) s.mesh().tet_flags[task.tet] |= tet_flag::kAskLater;
+    if (v == Verdict::kFrozen && s.at_interface(task.a) && s.at_interface(task.b))
+      s.block(task.tet);
     if (!s.count(Operator::kEdgeSplit, v)) return Outcome::kRefused;
     s.commit();
     return Outcome::kDone;

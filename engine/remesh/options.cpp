@@ -118,6 +118,10 @@ void validate(const Options& o) {
   require_range(o.angle, 0, 180, "angle");
   require_range(o.min_quality, 0, 1, "min_quality");
   require_range(o.min_conform, 0, 100, "min_conform");
+  constexpr std::int64_t kFewestInPart = 100;  // of fewer nearly all are interface
+  if (o.tets_per_part != 0 && o.tets_per_part < kFewestInPart)
+    throw OptionError(
+        fmt::format("tets_per_part must be at least {}, not {}", kFewestInPart, o.tets_per_part));
   if (o.threads < 0)
     throw OptionError(fmt::format("threads must be at least 1, not {}", o.threads));
 }

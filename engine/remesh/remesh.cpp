@@ -14,6 +14,7 @@
 #include "cavea/field/wanted_sizes.h"
 #include "cavea/mesh/check.h"
 #include "cavea/mesh/compact.h"
+#include "cavea/part/residual.h"
 #include "cavea/part/round.h"
 #include "cavea/remesh/budget.h"
 #include "cavea/remesh/bulk.h"
@@ -84,8 +85,9 @@ class Run {
     timed("analysis", [&] { analyse(); });
     mends_ = ask_if_it_stands();
     const bool filled = !mends_ && fill();
-    for (const Phase& phase : mends_ ? standing_recipe(r_) : recipe(r_, filled))
-      timed(phase.name, [&] { run_phase(phase); });
+    const std::vector<Phase> phases = mends_ ? standing_recipe(r_) : recipe(r_, filled);
+    for (const Phase& phase : phases) timed(phase.name, [&] { run_phase(phase); });
+    timed("residual", [&] { run_residual_of(phases.back()); });
     mend_poor();
     finish();
     timed("measurement", [&] { distance_ = measure_distance(); });
@@ -305,9 +307,7 @@ class Run {
     for (int k = 0; k < kMends && poor > 0; ++k) {
       ask_nothing(mesh_);
       ask_poor(mesh_);
-      timed("mending", [&] {
-        for (const Phase& phase : poor_recipe(r_)) run_phase(phase);
-      });
+      timed("mending", [&] { run_phases(poor_recipe(r_)); });
       const std::int64_t left = count_poor(mesh_);
       if (double(left) > kMended * double(poor)) break;
       poor = left;
@@ -334,6 +334,27 @@ class Run {
     return (few || !r_.uniform()) && !r_.freeze.insert && !r_.freeze.surface && !budget_.binds();
   }
 
+  void run_phases(const std::vector<Phase>& phases) {
+    for (const Phase& phase : phases) run_phase(phase);
+    run_residual_of(phases.back());
+  }
+
+  /// Asks what the interfaces of the last phase's last round have blocked.
+  void run_residual_of(const Phase& last) {
+    CycleSettings settings = last.cycle;
+    settings.cancel = options_.cancel;
+    const ResidualResult result =
+        run_residual(mesh_, working_surface(), settings, report_.part_of_tet);
+    verdicts_ += result.cycle.verdicts;
+    ResidualCount& sum = report_.residual;
+    sum.before += result.before;
+    sum.after = result.after;
+    sum.changes += result.cycle.changes;
+    sum.colors = std::max(sum.colors, result.colors);
+    sum.batches += result.batches;
+    sum.regions += result.regions;
+  }
+
   void run_phase(const Phase& phase) {
     CycleSettings settings = phase.cycle;
     settings.cancel = options_.cancel;
@@ -344,11 +365,13 @@ class Run {
       if (phase.resize && round > 1 && sizes_vary_) resize(), ask_lengths(mesh_);
       if (report_.part_of_tet.size() == mesh_.tets.size() && is_nothing_asked(mesh_)) break;
       if (phase.growth > 0)
-        settings.most_tets = std::int64_t(phase.growth * double(mesh_.tets.size()) /
-                                          part_count(std::int64_t(mesh_.tets.size()))) +
-                             10000;
-      const RoundResult result =
-          run_round(mesh_, working_surface(), settings, &report_.part_of_tet);
+        settings.most_tets =
+            std::int64_t(phase.growth * double(mesh_.tets.size()) /
+                         part_count(std::int64_t(mesh_.tets.size()), options_.tets_per_part)) +
+            10000;
+      const RoundResult result = run_round(mesh_, working_surface(), settings, &report_.part_of_tet,
+                                           options_.tets_per_part);
+      report_.parts = std::max(report_.parts, result.parts);
       verdicts_ += result.cycle.verdicts;
       if (phase.budget_rounds > 0) budget_.learn(mesh_);
       if (settled(phase, result.cycle)) break;
@@ -420,7 +443,7 @@ class Run {
     std::for_each(distance_.far_facets.begin(), distance_.far_facets.end(), add);
     std::for_each(distance_.far_triangles.begin(), distance_.far_triangles.end(), add);
     resize_for(spots);
-    for (const Phase& phase : mending_recipe(r_)) run_phase(phase);
+    run_phases(mending_recipe(r_));
   }
 
   /// Vertices have moved since their sizes were set, so that all would change a little: only what
@@ -450,6 +473,7 @@ class Run {
       report_.after = {count(mesh_), quality_statistics(mesh_), length_statistics(mesh_)};
     else
       report_.after = report_.before;
+    report_.interface_quality = interface_quality(mesh_);
     report_.verdicts = counts_of(verdicts_);
     report_.stubborn = find_stubborn(mesh_, working_surface(), last_phase(r_).cycle,
                                      std::max(kSoundQuality, options_.min_quality));

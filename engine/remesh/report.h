@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cavea/mesh/statistics.h"
+#include "cavea/part/interface_quality.h"
 #include "cavea/surface/directions.h"
 
 namespace cavea {
@@ -46,6 +47,16 @@ struct MeshSummary {
   LengthStatistics lengths;
 };
 
+/// Cavities that the interfaces of the last rounds have blocked, and what was done about them.
+struct ResidualCount {
+  std::int64_t before = 0;   ///< tets that waited, after the phases and after each mending
+  std::int64_t after = 0;    ///< tets that still do at the end
+  std::int64_t regions = 0;  ///< run as small parts
+  std::int64_t changes = 0;  ///< operations accepted in them
+  int colors = 0;            ///< most that a conflict graph of regions took
+  int batches = 0;           ///< of regions free of conflicts, run one after the other
+};
+
 /// What remesh() did and how good the result is.
 struct Report {
   int threads = 0;
@@ -58,6 +69,9 @@ struct Report {
   double tets_per_second = 0;  ///< final tets over seconds
   std::int64_t peak_resident_bytes = 0;
   std::vector<VerdictCount> verdicts;
+  int parts = 0;  ///< most parts of a round
+  ResidualCount residual;
+  InterfaceQuality interface_quality;
   double surface_distance = 0;  ///< two-sided, sampled, to the surface model
   double bulge = 0;  ///< largest distance of the surface model from the input's triangles
   std::vector<Target> targets;

@@ -54,6 +54,30 @@ TEST(Parts, StitchedAsTheyAreGiveTheMeshBack) {
   });
 }
 
+TEST(Parts, AreMeshesThatCanBeCutThemselves) {
+  for_each_cut([](const TetMesh& mesh, const Cut& cut) {
+    std::vector<Part> parts = extract_parts(mesh, cut.labels, cut.parts);
+    Random random(kSeed);
+    for (Part& part : parts) {
+      const Canonical before(part.mesh);
+      const std::vector<Place> frozen = tagged_places(part.mesh, tag::kFrozen);
+      const Labels labels =
+          labels_of(part.mesh, [&](std::size_t, const Vec3&) { return random.below(4) - 1; });
+      std::vector<Part> inner = extract_parts(part.mesh, labels, 3);
+      for (const Part& p : inner) expect_sound(p.mesh);
+      Labels part_of_tet;
+      stitch_parts(part.mesh, inner, part_of_tet);
+      expect_sound(part.mesh);
+      EXPECT_TRUE(Canonical(part.mesh) == before);
+      EXPECT_EQ(tagged_places(part.mesh, tag::kFrozen), frozen);
+    }
+    const TetMesh back = stitched(mesh, parts);
+    expect_sound(back);
+    EXPECT_TRUE(Canonical(back) == Canonical(mesh));
+    EXPECT_EQ(tagged_places(back, tag::kFrozen), std::vector<Place>());
+  });
+}
+
 TEST(Parts, CanBeCutAgainAnotherWay) {
   TetMesh mesh = classified(meshes_to_cut()[1].data);
   const Canonical before(mesh);

@@ -115,7 +115,7 @@ inline Place place(const TetMesh& mesh, VertexId v) {
 
 /// All there is to know of a mesh but the numbers of its entities and the tags of parts.
 struct Canonical {
-  static constexpr Tag kOfParts = tag::kFrozen | tag::kWasInterface;
+  static constexpr Tag kOfParts = tag::kFrozen | tag::kWasInterface | tag::kMetInterface;
   using Side = std::tuple<Place, Tag, std::int32_t>;  // vertex, and its opposite edge
 
   std::vector<std::tuple<Place, float, Tag, std::int32_t, std::int32_t, float, float>> vertices;

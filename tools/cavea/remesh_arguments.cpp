@@ -113,6 +113,8 @@ void add_common_flags(CLI::App* command, RemeshArguments& arguments, const char*
   add_freeze_flags(*command, arguments.options.freeze);
   add_target_flags(*command, arguments.options);
   command->add_option("--threads", arguments.threads, "Number of threads [all cores]");
+  command->add_option("--tets-per-part", arguments.options.tets_per_part,
+                      "Size of the parts that are run in parallel [what fits caches]");
   command->footer(
       "Exit status: 0 done, every target met; 1 a valid mesh was written, but a target was missed; "
       "2 bad usage or input, nothing written; 3 a fault of the program, nothing written.");

@@ -54,6 +54,11 @@ Json verdicts_json(const std::vector<VerdictCount>& counts) {
   return verdicts;
 }
 
+Json residual_json(const ResidualCount& r) {
+  return {{"before", r.before},   {"after", r.after},   {"regions", r.regions},
+          {"changes", r.changes}, {"colors", r.colors}, {"batches", r.batches}};
+}
+
 Json stubborn_json(const Report& report) {
   Json stubborn = Json::array();
   for (const StubbornTet& t : report.stubborn)
@@ -109,6 +114,11 @@ Json to_json(const RunReport& run) {
               {"before", to_json(report.before)},
               {"after", to_json(report.after)},
               {"verdicts", verdicts_json(report.verdicts)},
+              {"parts", report.parts},
+              {"residual", residual_json(report.residual)},
+              {"interface_quality",
+               {{"at_interface", report.interface_quality.at_interface},
+                {"elsewhere", report.interface_quality.elsewhere}}},
               {"stubborn", stubborn_json(report)},
               {"surface_distance", report.surface_distance},
               {"bulge", report.bulge},

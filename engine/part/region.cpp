@@ -1,0 +1,83 @@
+#include "cavea/part/region.h"
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+
+#include "cavea/base/ids_where.h"
+#include "cavea/base/parallel.h"
+#include "cavea/mesh/compact.h"
+#include "cavea/mesh/fill_holes.h"
+#include "cavea/mesh/local.h"
+#include "cavea/mesh/renumber.h"
+
+namespace cavea {
+namespace {
+
+/// Where less than this share of the mesh is asked, or is holes, it is worth not to touch the rest.
+constexpr std::size_t kFew = 64;
+
+template <class Id>
+void sort_unique(std::vector<Id>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+std::size_t count_holes(const TetMesh& m) {
+  return parallel_reduce(
+      m.tets.size(), std::size_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::size_t n = 0;
+        for (std::size_t t = begin; t < end; ++t) n += !m.tet_alive(TetId(t));
+        return n;
+      },
+      std::plus<>{});
+}
+
+/// Many tets and those around, by marks on all.
+std::vector<TetId> with_layers_of_many(const TetMesh& m, const std::vector<TetId>& tets,
+                                       int layers) {
+  std::vector<std::uint8_t> active(m.tets.size(), 0), near(m.points.size(), 0);
+  parallel_for(tets.size(), [&](std::size_t i) { active[tets[i]] = 1; });
+  for (int layer = 0; layer < layers; ++layer) {
+    parallel_for(m.tets.size(), [&](std::size_t t) {
+      if (!active[t]) return;
+      for (const VertexId v : m.tets[t])
+        std::atomic_ref(near[v]).store(1, std::memory_order_relaxed);
+    });
+    parallel_for(m.tets.size(), [&](std::size_t t) {
+      for (const VertexId v : m.tets[t]) active[t] |= near[v];
+    });
+  }
+  return ids_where(active.size(), [&](TetId t) { return active[t] != 0; });
+}
+
+}  // namespace
+
+std::vector<TetId> with_layers(const TetMesh& m, std::vector<TetId> tets, int layers) {
+  if (tets.size() == m.tets.size()) return tets;
+  return kFew * tets.size() < m.tets.size() ? with_layers_of_few(m, std::move(tets), layers)
+                                            : with_layers_of_many(m, tets, layers);
+}
+
+std::vector<TetId> with_layers_of_few(const TetMesh& m, std::vector<TetId> tets, int layers) {
+  for (int layer = 0; layer < layers; ++layer) {
+    std::vector<VertexId> vertices;
+    for (const TetId t : tets) vertices.insert(vertices.end(), m.tets[t].begin(), m.tets[t].end());
+    sort_unique(vertices);
+    for (const VertexId v : vertices) {
+      const std::vector<TetId> ball = small_ball(m, v);
+      tets.insert(tets.end(), ball.begin(), ball.end());
+    }
+    sort_unique(tets);
+  }
+  return tets;
+}
+
+void remove_holes(TetMesh& m, std::vector<std::int32_t>& of_tet) {
+  if (kFew * count_holes(m) < m.tets.size()) return fill_holes(m, &of_tet);
+  living_tets(m).keep_in(of_tet);
+  compact(m);
+}
+
+}  // namespace cavea
