@@ -82,7 +82,8 @@ class HoleFiller {
     if (mesh_.vertex_tags[from] & tag::kPinched) {
       for (std::size_t t = 0; t < mesh_.tets.size(); ++t) rename_in(TetId(t), from, to);
     } else {
-      for (const TetId t : small_ball(mesh_, from)) rename_in(t, from, to);
+      small_ball(mesh_, from, ball_);
+      for (const TetId t : ball_) rename_in(t, from, to);
     }
     mesh_.points[to] = mesh_.points[from];
     mesh_.sizes[to] = mesh_.sizes[from];
@@ -96,6 +97,7 @@ class HoleFiller {
 
   TetMesh& mesh_;
   std::vector<std::int32_t>* of_tet_;
+  std::vector<TetId> ball_;
 };
 
 }  // namespace

@@ -27,8 +27,8 @@ void gather_ball(const TetMesh& mesh, VertexId v, TetMarker& marker, Ball& ball)
   }
 }
 
-std::vector<TetId> small_ball(const TetMesh& mesh, VertexId v) {
-  std::vector<TetId> ball = {mesh.vertex_tets[v]};
+void small_ball(const TetMesh& mesh, VertexId v, std::vector<TetId>& ball) {
+  ball = {mesh.vertex_tets[v]};
   for (std::size_t i = 0; i < ball.size(); ++i)
     for (int f = 0; f < 4; ++f) {
       if (mesh.tets[ball[i]][f] == v) continue;
@@ -36,7 +36,6 @@ std::vector<TetId> small_ball(const TetMesh& mesh, VertexId v) {
       if (next.is_tet() && std::ranges::find(ball, next.tet()) == ball.end())
         ball.push_back(next.tet());
     }
-  return ball;
 }
 
 namespace {

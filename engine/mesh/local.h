@@ -39,7 +39,7 @@ struct Ball {
 void gather_ball(const TetMesh& mesh, VertexId v, TetMarker& marker, Ball& ball);
 
 /// The ids alone, without marks as large as the mesh: for few balls of many tets.
-std::vector<TetId> small_ball(const TetMesh& mesh, VertexId v);
+void small_ball(const TetMesh& mesh, VertexId v, std::vector<TetId>& ball);
 
 /// Calls f(triangle id) for each surface triangle at the ball's vertex, once.
 template <class F>

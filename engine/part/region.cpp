@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 
+#include "cavea/base/id_set.h"
 #include "cavea/base/ids_where.h"
 #include "cavea/base/parallel.h"
 #include "cavea/mesh/compact.h"
@@ -16,12 +17,6 @@ namespace {
 
 /// Where less than this share of the mesh is asked, or is holes, it is worth not to touch the rest.
 constexpr std::size_t kFew = 64;
-
-template <class Id>
-void sort_unique(std::vector<Id>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 std::size_t count_holes(const TetMesh& m) {
   return parallel_reduce(
@@ -61,16 +56,20 @@ std::vector<TetId> with_layers(const TetMesh& m, std::vector<TetId> tets, int la
 }
 
 std::vector<TetId> with_layers_of_few(const TetMesh& m, std::vector<TetId> tets, int layers) {
-  for (int layer = 0; layer < layers; ++layer) {
-    std::vector<VertexId> vertices;
-    for (const TetId t : tets) vertices.insert(vertices.end(), m.tets[t].begin(), m.tets[t].end());
-    sort_unique(vertices);
-    for (const VertexId v : vertices) {
-      const std::vector<TetId> ball = small_ball(m, v);
-      tets.insert(tets.end(), ball.begin(), ball.end());
-    }
-    sort_unique(tets);
+  IdSet reached, vertices;
+  for (const TetId t : tets) reached.insert(t);
+  std::vector<TetId> ball;
+  for (std::size_t begin = 0; layers > 0; --layers) {
+    const std::size_t end = tets.size();
+    for (; begin < end; ++begin)
+      for (const VertexId v : m.tets[tets[begin]]) {
+        if (!vertices.insert(v)) continue;
+        small_ball(m, v, ball);
+        for (const TetId t : ball)
+          if (reached.insert(t)) tets.push_back(t);
+      }
   }
+  std::sort(tets.begin(), tets.end());
   return tets;
 }
 

@@ -14,12 +14,12 @@
 namespace cavea {
 namespace {
 
-/// Regions grow by a layer a pass, so that what goes to and fro at a rim comes to lie inside; this
-/// many passes end what would not end.
+/// Regions grow by a layer every other pass, so that what goes to and fro at a rim comes to lie
+/// inside; this many passes end what would not end.
 constexpr int kPasses = 20;
 
 /// A cluster of more blocked tets than this is cut, so that regions are many and small.
-constexpr std::size_t kCluster = 64;
+constexpr std::size_t kCluster = 256;
 
 /// The second sweep offers the last resorts; what further ones would gain is not worth their reach.
 constexpr int kSweeps = 2;
@@ -116,7 +116,7 @@ ResidualResult run_residual(TetMesh& mesh, const SurfaceModel& surface,
   TetList blocked = blocked_tets(mesh);
   result.before = std::int64_t(blocked.size());
   for (; !blocked.empty() && result.passes < kPasses; ++result.passes) {
-    const int layers = kLayers + result.passes;
+    const int layers = kLayers + result.passes / 2;
     std::vector<Part> part = take_out(mesh, std::move(blocked), layers);
     Batches(part[0].mesh, surface, few_sweeps, layers, result).run();
     std::vector<std::int32_t> labels;
