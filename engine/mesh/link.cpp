@@ -102,7 +102,8 @@ LinkFault link_sorted(TetMesh& mesh, VertexId lowest, std::span<const std::uint3
 /// the few different ones before it, which is sooner than sorting them.
 /// \return whether that was so; if not, some may be linked all the same
 bool link_few(TetMesh& mesh, VertexId lowest, std::span<const std::uint32_t> bucket) {
-  constexpr std::size_t kMost = 64;  // a vertex is the lowest of 22 faces on the average
+  // A vertex is the lowest of 22 faces on the average, but the first ones are of all faces at them.
+  constexpr std::size_t kMost = 128;
   if (3 * bucket.size() > kMost) return false;
   std::array<std::uint64_t, kMost> keys;
   std::array<std::int32_t, kMost> first;
