@@ -43,9 +43,8 @@ bool has_required_edges(const TetMesh& m) {
 
 std::vector<float> mean_edge_lengths(const TetMesh& mesh) {
   return mean_lengths(mesh, [&](TetId t, auto&& f) {
-    const EdgeShare share(mesh, t);
-    for (const auto& e : kEdgeVertices)
-      if (share.has(e)) f(mesh.tets[t][e[0]], mesh.tets[t][e[1]]);
+    EdgeShare(mesh, t).for_each(
+        [&](const auto& e) { f(mesh.tets[t][e[0]], mesh.tets[t][e[1]]); });
   });
 }
 

@@ -15,7 +15,7 @@ BoxTree::BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {
   });
   for (int level = 0; level < levels_; ++level) sort_level(level, centres);
   parallel_for(order_.size(), [&](std::size_t slot) { order_[slot] = centres[slot].box; });
-  set_boxes(boxes);
+  nodes_ = node_boxes(boxes);
 }
 
 /// Parts the slots of each node of a level at the median along the longest side of the centres'
@@ -47,17 +47,18 @@ void BoxTree::sort_level(int level, std::vector<Centre>& all) const {
       1);
 }
 
-void BoxTree::set_boxes(std::span<const Box> boxes) {
-  nodes_.resize(2 * first_leaf() + 1);
+std::vector<Box> BoxTree::node_boxes(std::span<const Box> boxes) const {
+  std::vector<Box> nodes(2 * first_leaf() + 1);
   parallel_for(first_leaf() + 1, [&](std::size_t k) {
     const auto [begin, end] = range(levels_, k);
     for (std::size_t slot = begin; slot < end; ++slot)
-      nodes_[first_leaf() + k].add(boxes[order_[slot]]);
+      nodes[first_leaf() + k].add(boxes[order_[slot]]);
   });
   for (std::size_t i = first_leaf(); i-- > 0;) {
-    nodes_[i] = nodes_[2 * i + 1];
-    nodes_[i].add(nodes_[2 * i + 2]);
+    nodes[i] = nodes[2 * i + 1];
+    nodes[i].add(nodes[2 * i + 2]);
   }
+  return nodes;
 }
 
 std::vector<std::int32_t> BoxTree::slots() const {

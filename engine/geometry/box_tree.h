@@ -23,6 +23,9 @@ class BoxTree {
   /// The slots of the boxes: the inverse of order().
   std::vector<std::int32_t> slots() const;
 
+  /// For each node the box around what is below it, of other boxes of the same numbers.
+  std::vector<Box> node_boxes(std::span<const Box> boxes) const;
+
   /// Calls visit(slot) for the boxes that may hold something nearer to a point or box than
   /// sqrt(bound2), near ones first; visit lowers bound2 as it finds something.
   template <class Place, class Visit>
@@ -50,13 +53,18 @@ class BoxTree {
   /// some more.
   template <class Visit>
   void visit_overlapping(const Box& box, Visit&& visit) const {
+    visit_overlapping(box, [](std::size_t) { return true; }, visit);
+  }
+  /// The same without the nodes for which may(node) is false, and all below them.
+  template <class May, class Visit>
+  void visit_overlapping(const Box& box, May&& may, Visit&& visit) const {
     if (order_.empty()) return;
     std::array<std::size_t, kMaxLevels + 2> stack;
     std::size_t depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
       const std::size_t node = stack[--depth];
-      if (!nodes_[node].overlaps(box)) continue;
+      if (!nodes_[node].overlaps(box) || !may(node)) continue;
       if (node < first_leaf()) {
         stack[depth++] = 2 * node + 1;
         stack[depth++] = 2 * node + 2;
@@ -86,7 +94,6 @@ class BoxTree {
     return {order_.size() * k >> level, order_.size() * (k + 1) >> level};
   }
   void sort_level(int level, std::vector<Centre>& centres) const;
-  void set_boxes(std::span<const Box> boxes);
 
   int levels_ = 0;  ///< below the root
   std::vector<Box> nodes_;

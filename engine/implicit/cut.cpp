@@ -187,7 +187,7 @@ class Cut {
       measure_sagitta();
     }
     keep_side(data);
-    return build(data).mesh;
+    return build(std::move(data)).mesh;
   }
 
   void measure_sagitta() {

@@ -125,7 +125,7 @@ class StackMesher {
     keep_tets(data, [&](std::size_t t) {
       return (mesh_.tet_refs[t] == options_.material.outside) == outside;
     });
-    mesh_ = build(data).mesh;
+    mesh_ = build(std::move(data)).mesh;
   }
 
   /// Calls f; what it throws about the input gets the name of the k-th level set.

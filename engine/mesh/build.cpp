@@ -135,40 +135,53 @@ void check_coordinates(const MeshData& data) {
                                is_finite(p) ? "too large" : "not finite"));
 }
 
-/// Copies the used vertices. \returns their new numbers, kNone for the unused.
-std::vector<VertexId> take_vertices(const MeshData& data, TetMesh& mesh) {
+/// Moves the used vertices. \returns their new numbers, kNone for the unused.
+std::vector<VertexId> take_vertices(MeshData& data, TetMesh& mesh) {
   const std::size_t n = data.vertices.size();
   std::vector<char> used(n, 0);
   parallel_for(data.tets.size(), [&](std::size_t t) {
     for (const std::int32_t v : data.tets[t])
       std::atomic_ref(used[v]).store(1, std::memory_order_relaxed);
   });
-  const Renumbering ids(n, [&](std::size_t v) { return used[v] != 0; });
+  Renumbering ids(n, [&](std::size_t v) { return used[v] != 0; });
+  const auto take = [&](auto& from, auto& to) {
+    if (from.empty()) return;
+    ids.keep_in(from);
+    to = std::move(from);
+  };
+  take(data.vertices, mesh.points);
+  take(data.vertex_refs, mesh.vertex_refs);
   mesh.resize_vertices(ids.count);
-  parallel_for(n, [&](std::size_t v) {
-    if (ids.new_id[v] == kNone) return;
-    mesh.points[ids.new_id[v]] = data.vertices[v];
-    if (!data.vertex_refs.empty()) mesh.vertex_refs[ids.new_id[v]] = data.vertex_refs[v];
-    if (!data.sizes.empty()) mesh.sizes[ids.new_id[v]] = float(data.sizes[v]);
-  });
-  return ids.new_id;
+  if (!data.sizes.empty())
+    parallel_for(n, [&](std::size_t v) {
+      if (ids.new_id[v] != kNone) mesh.sizes[ids.new_id[v]] = float(data.sizes[v]);
+    });
+  return std::move(ids.new_id);
 }
 
-/// Copies the tets, turning over those of negative volume.
-void take_tets(const MeshData& data, const std::vector<VertexId>& new_vertex, TetMesh& mesh,
+std::vector<std::int32_t> unused_of(const std::vector<VertexId>& new_vertex) {
+  std::vector<std::int32_t> unused;
+  for (std::size_t v = 0; v < new_vertex.size(); ++v)
+    if (new_vertex[v] == kNone) unused.push_back(std::int32_t(v));
+  return unused;
+}
+
+/// Moves the tets, turning over those of negative volume.
+void take_tets(MeshData& data, const std::vector<VertexId>& new_vertex, TetMesh& mesh,
                BuildSummary& summary) {
   struct Found {
     std::int64_t turned = 0, flat = 0;
   };
-  mesh.resize_tets(data.tets.size());
+  mesh.tets = std::move(data.tets);
+  mesh.tet_refs = std::move(data.tet_refs);
+  mesh.resize_tets(mesh.tets.size());
   const Found found = parallel_reduce(
-      data.tets.size(), Found{},
+      mesh.tets.size(), Found{},
       [&](std::size_t begin, std::size_t end) {
         Found here;
         for (std::size_t t = begin; t < end; ++t) {
           auto& tet = mesh.tets[t];
-          for (int k = 0; k < 4; ++k) tet[k] = new_vertex[data.tets[t][k]];
-          if (!data.tet_refs.empty()) mesh.tet_refs[t] = data.tet_refs[t];
+          for (VertexId& v : tet) v = new_vertex[v];
           mesh.tet_flags[t] = tet_flag::kAskAll;
           const auto [a, b, c, d] = mesh.corners(TetId(t));
           const int sign = orientation(a, b, c, d);
@@ -301,7 +314,7 @@ std::vector<std::string> BuildSummary::warnings() const {
   return out;
 }
 
-BuildResult build(const MeshData& data, const BuildOptions& options) {
+BuildResult build(MeshData data, const BuildOptions& options) {
   check_lists(data);
   check_tets(data);
   check_coordinates(data);
@@ -310,7 +323,8 @@ BuildResult build(const MeshData& data, const BuildOptions& options) {
   BuildResult out;
   TetMesh& mesh = out.mesh;
   const std::vector<VertexId> new_vertex = take_vertices(data, mesh);
-  out.summary.unused_vertices = std::int64_t(data.vertices.size() - mesh.points.size());
+  out.summary.unused_vertices = std::int64_t(new_vertex.size() - mesh.points.size());
+  if (out.summary.unused_vertices != 0) out.unused_vertices = unused_of(new_vertex);
   take_tets(data, new_vertex, mesh, out.summary);
   link_faces(mesh);
   if (out.summary.flat_tets != 0) orient_flat_tets(mesh);

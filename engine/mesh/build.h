@@ -27,15 +27,17 @@ struct BuildOptions {
 struct BuildResult {
   TetMesh mesh;
   BuildSummary summary;
+  std::vector<std::int32_t> unused_vertices;  ///< those of the lists that are of no tet, rising
 };
 
 /// Makes a mesh out of lists: adjacency, surface triangles (the exterior boundary and the faces
 /// between references; the missing ones are made), their edges' tags and references, required
 /// entities and corners, sizes, normals. Vertices keep their order; unused ones are dropped.
+/// The long lists become those of the mesh: whoever needs them no more hands them over by move.
 /// \throw InputError naming the entity: no tets, repeated vertex in a tet, coordinates not finite,
 /// a face in three tets, two tets on the same side of a face, more tets than 32-bit ids can hold,
 /// sizes that are no positive floats or not one a vertex.
-BuildResult build(const MeshData& data, const BuildOptions& options = {});
+BuildResult build(MeshData data, const BuildOptions& options = {});
 
 /// Links all faces of mesh.tets to each other: sets links, vertex_tets and qualities; faces that no
 /// second tet shares are left unset. Holes are skipped. A flat tet is linked whichever way it is
@@ -56,5 +58,7 @@ void attach_triangles(TetMesh& mesh);
 /// The lists of a mesh without holes, for a writer: with Ridges, Corners and required entities out
 /// of the tags, and the sizes where they are known.
 MeshData to_data(const TetMesh& mesh);
+/// The same out of a mesh that is needed no more: the long lists are taken over.
+MeshData to_data(TetMesh&& mesh);
 
 }  // namespace cavea

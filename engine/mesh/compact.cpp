@@ -1,5 +1,7 @@
 #include "cavea/mesh/compact.h"
 
+#include <functional>
+
 #include "cavea/mesh/renumber.h"
 
 namespace cavea {
@@ -11,14 +13,27 @@ FaceLink renumbered(FaceLink link, const Renumbering& tets, const Renumbering& t
   return link;
 }
 
+bool has_holes(const TetMesh& mesh) {
+  const auto dead = [](std::size_t n, auto&& is_alive) {
+    return parallel_reduce(
+        n, false,
+        [&](std::size_t begin, std::size_t end) {
+          while (begin < end && is_alive(begin)) ++begin;
+          return begin < end;
+        },
+        std::logical_or<>{});
+  };
+  return dead(mesh.points.size(), [&](std::size_t v) { return mesh.vertex_alive(VertexId(v)); }) ||
+         dead(mesh.tets.size(), [&](std::size_t t) { return mesh.tet_alive(TetId(t)); }) ||
+         dead(mesh.triangles.size(), [&](std::size_t i) { return mesh.triangles[i].alive(); });
+}
+
 }  // namespace
 
 void compact(TetMesh& mesh) {
+  if (!has_holes(mesh)) return;
   const Renumbering vertices = living_vertices(mesh), tets = living_tets(mesh),
                     triangles = living_triangles(mesh);
-  if (vertices.count == mesh.points.size() && tets.count == mesh.tets.size() &&
-      triangles.count == mesh.triangles.size())
-    return;
   vertices.keep_in(mesh.points);
   vertices.keep_in(mesh.sizes);
   vertices.keep_in(mesh.vertex_tags);

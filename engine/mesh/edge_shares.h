@@ -1,5 +1,7 @@
 #pragma once
 #include <array>
+#include <bit>
+#include <cstdint>
 
 #include "cavea/mesh/tet_mesh.h"
 
@@ -12,16 +14,33 @@ namespace cavea {
 class EdgeShare {
  public:
   EdgeShare(const TetMesh& mesh, TetId t) {
+    unsigned lower = 0;  // a bit for each face
     for (int f = 0; f < 4; ++f) {
       const FaceLink behind = mesh.links[t][f];
-      lower_[f] = behind.is_tet() && behind.tet() < t;
+      lower |= unsigned(behind.is_tet() && behind.tet() < t) << f;
     }
+    edges_ = kLeft[lower];
   }
-  /// \param edge of kEdgeVertices
-  bool has(const int (&edge)[4]) const { return !lower_[edge[2]] && !lower_[edge[3]]; }
+  /// Calls f(edge) for its edges, rows of kEdgeVertices. Which these are is hard to guess: no
+  /// branch asks for each of the six.
+  template <class F>
+  void for_each(F&& f) const {
+    for (unsigned left = edges_; left != 0; left &= left - 1)
+      f(kEdgeVertices[std::countr_zero(left)]);
+  }
 
  private:
-  std::array<bool, 4> lower_;  ///< whether the tet behind each face is
+  /// For each set of faces the edges that are at none of them.
+  static constexpr std::array<std::uint8_t, 16> kLeft = [] {
+    std::array<std::uint8_t, 16> left{};
+    for (unsigned faces = 0; faces < left.size(); ++faces)
+      for (unsigned e = 0; e < 6; ++e) {
+        const unsigned at_edge = 1u << kEdgeVertices[e][2] | 1u << kEdgeVertices[e][3];
+        if ((faces & at_edge) == 0) left[faces] = std::uint8_t(left[faces] | 1u << e);
+      }
+    return left;
+  }();
+  unsigned edges_ = 0;
 };
 
 }  // namespace cavea

@@ -5,24 +5,25 @@
 
 #include "cavea/base/atomic.h"
 #include "cavea/base/error.h"
+#include "cavea/geometry/tet_block.h"
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/faces.h"
 
 namespace cavea {
 namespace {
 
-/// A face of a bucket; the first of its sorted vertices is the bucket's.
+/// A face of a bucket, of which the bucket's vertex is the lowest.
 struct BucketFace {
   std::uint64_t key;  ///< the second and third vertex
   std::int32_t code;
   bool odd;
 
-  BucketFace(const TetMesh& mesh, std::uint32_t face_code)
-      : code(static_cast<std::int32_t>(face_code)) {
-    const auto face = face_vertices(mesh.tets[face_code >> 2], static_cast<int>(face_code & 3));
-    const auto v = sorted(face);
-    key = std::uint64_t(v[1]) << 32 | std::uint64_t(v[2]);
-    odd = is_odd(face);
+  BucketFace(const TetMesh& mesh, VertexId lowest, TetId t, int f) : code(4 * t + f) {
+    const auto v = face_vertices(mesh.tets[t], f);
+    const int at = v[0] == lowest ? 0 : v[1] == lowest ? 1 : 2;
+    const VertexId a = v[(at + 1) % 3], b = v[(at + 2) % 3];
+    key = std::uint64_t(std::min(a, b)) << 32 | std::uint64_t(std::max(a, b));
+    odd = b < a;
   }
 };
 
@@ -39,15 +40,35 @@ struct LinkFault {
   }
 };
 
-Buckets all_faces(const TetMesh& mesh) {
+/// The tets by the lowest vertices of their faces: three faces have that of the tet, the fourth has
+/// the second lowest. Twice the tet for those three, one more for the fourth.
+Buckets tets_by_faces(const TetMesh& mesh) {
   return Buckets(mesh.tets.size(), mesh.points.size(), [&](std::size_t t, auto&& put) {
     const auto& v = mesh.tets[t];
     if (v[0] == kNone) return;
-    for (int f = 0; f < 4; ++f) {
-      const auto& k = kFaceVertices[f];
-      put(std::min({v[k[0]], v[k[1]], v[k[2]]}), static_cast<std::uint32_t>(4 * t + f));
-    }
+    const auto [low, high] = std::minmax(v[0], v[1]);
+    const auto [other_low, other_high] = std::minmax(v[2], v[3]);
+    const bool first = low < other_low;
+    put(first ? low : other_low, static_cast<std::uint32_t>(2 * t));
+    put(first ? std::min(high, other_low) : std::min(low, other_high),
+        static_cast<std::uint32_t>(2 * t + 1));
   });
+}
+
+/// Calls f for each face of a bucket.
+template <class F>
+void for_each_face(const TetMesh& mesh, VertexId lowest, std::span<const std::uint32_t> bucket,
+                   F&& f) {
+  for (const std::uint32_t value : bucket) {
+    const TetId t = TetId(value >> 1);
+    const auto& v = mesh.tets[t];
+    if (value & 1) {
+      f(BucketFace(mesh, lowest, t, int(std::ranges::min_element(v) - v.begin())));
+      continue;
+    }
+    for (int k = 0; k < 4; ++k)
+      if (v[k] != lowest) f(BucketFace(mesh, lowest, t, k));
+  }
 }
 
 void link(TetMesh& mesh, FaceLink p, FaceLink q) {
@@ -56,9 +77,9 @@ void link(TetMesh& mesh, FaceLink p, FaceLink q) {
 }
 
 /// Links the faces of a bucket two by two; what is wrong first by vertices, if anything is.
-LinkFault link_sorted(TetMesh& mesh, std::span<const std::uint32_t> codes) {
+LinkFault link_sorted(TetMesh& mesh, VertexId lowest, std::span<const std::uint32_t> bucket) {
   std::vector<BucketFace> faces;
-  for (const std::uint32_t code : codes) faces.emplace_back(mesh, code);
+  for_each_face(mesh, lowest, bucket, [&](const BucketFace& face) { faces.push_back(face); });
   std::sort(faces.begin(), faces.end(), [](const BucketFace& a, const BucketFace& b) {
     return a.key != b.key ? a.key < b.key : a.code < b.code;
   });
@@ -80,37 +101,39 @@ LinkFault link_sorted(TetMesh& mesh, std::span<const std::uint32_t> codes) {
 /// Links the faces of a small bucket where nothing is out of the ordinary: each is looked for among
 /// the few different ones before it, which is sooner than sorting them.
 /// \return whether that was so; if not, some may be linked all the same
-bool link_few(TetMesh& mesh, std::span<const std::uint32_t> codes) {
-  constexpr std::size_t kMost = 64;  // a vertex is the lowest of 22 faces on the average
-  if (codes.size() > kMost) return false;
+bool link_few(TetMesh& mesh, VertexId lowest, std::span<const std::uint32_t> bucket) {
+  // A vertex is the lowest of 22 faces on the average, but the first ones are of all faces at them.
+  constexpr std::size_t kMost = 128;
+  if (3 * bucket.size() > kMost) return false;
   std::array<std::uint64_t, kMost> keys;
   std::array<std::int32_t, kMost> first;
   std::array<bool, kMost> odd, paired;
   std::size_t different = 0;
-  for (const std::uint32_t code : codes) {
-    const BucketFace face(mesh, code);
+  bool ordinary = true;
+  for_each_face(mesh, lowest, bucket, [&](const BucketFace& face) {
     std::size_t k = 0;
     while (k < different && keys[k] != face.key) ++k;
     if (k < different) {
-      if (paired[k] || odd[k] == face.odd) return false;
+      ordinary = ordinary && !paired[k] && odd[k] != face.odd;
       paired[k] = true;
       link(mesh, FaceLink::from_code(first[k]), FaceLink::from_code(face.code));
-      continue;
+      return;
     }
     keys[k] = face.key, first[k] = face.code, odd[k] = face.odd, paired[k] = false;
     ++different;
-  }
-  return true;
+  });
+  return ordinary;
 }
 
 LinkFault link_all(TetMesh& mesh) {
-  const Buckets buckets = all_faces(mesh);
+  const Buckets buckets = tets_by_faces(mesh);
   return parallel_reduce(
       buckets.keys(), LinkFault{},
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-          if (link_few(mesh, buckets.of(v))) continue;
-          if (const LinkFault fault = link_sorted(mesh, buckets.of(v)); fault.found()) return fault;
+          if (link_few(mesh, VertexId(v), buckets.of(v))) continue;
+          const LinkFault fault = link_sorted(mesh, VertexId(v), buckets.of(v));
+          if (fault.found()) return fault;
         }
         return LinkFault{};
       },
@@ -128,6 +151,21 @@ void set_vertex_tets(TetMesh& mesh) {
   });
   parallel_for(n, [&](std::size_t v) {
     if (mesh.vertex_tets[v] == kNoneYet) mesh.vertex_tets[v] = kNone;
+  });
+}
+
+void set_qualities(TetMesh& mesh) {
+  parallel_ranges(mesh.tets.size(), kReduceBlock, [&](std::size_t begin, std::size_t end) {
+    TetBlock block;
+    for (std::size_t from = begin; from < end; from += TetBlock::kMost) {
+      const std::size_t to = std::min(end, from + TetBlock::kMost);
+      block.clear();
+      for (std::size_t t = from; t < to; ++t)
+        block.add(mesh.tet_alive(TetId(t)) ? mesh.corners(TetId(t)) : std::array<Vec3, 4>{});
+      const TetBlock::Row& qualities = block.qualities();
+      for (std::size_t t = from; t < to; ++t)
+        if (mesh.tet_alive(TetId(t))) mesh.qualities[t] = float(qualities[t - from]);
+    }
   });
 }
 
@@ -199,18 +237,32 @@ void link_faces(TetMesh& mesh) {
   parallel_for(mesh.tets.size(), [&](std::size_t t) { mesh.links[t] = {}; });
   if (const LinkFault fault = link_all(mesh); fault.found()) fault.raise();
   set_vertex_tets(mesh);
-  parallel_for(mesh.tets.size(), [&](std::size_t t) {
-    if (mesh.tet_alive(TetId(t))) mesh.qualities[t] = float(mesh.compute_quality(TetId(t)));
+  set_qualities(mesh);
+}
+
+namespace {
+
+/// The faces of a choice by their smallest vertices.
+Buckets faces_by_vertices(const TetMesh& mesh, FaceChoice choice) {
+  // Most meshes have one reference: then nobody need look up that of each neighbour.
+  const bool one_reference =
+      std::ranges::adjacent_find(mesh.tet_refs, std::not_equal_to{}) == mesh.tet_refs.end();
+  const auto is_chosen = [&](TetId t, int f) {
+    if (choice == FaceChoice::kAll) return true;
+    return one_reference ? mesh.links[t][f].is_unset() : is_surface_face(mesh, t, f);
+  };
+  return Buckets(mesh.tets.size(), mesh.points.size(), [&](std::size_t t, auto&& put) {
+    if (!mesh.tet_alive(TetId(t))) return;
+    for (int f = 0; f < 4; ++f)
+      if (is_chosen(TetId(t), f))
+        put(sorted(face_vertices(mesh.tets[t], f))[0], static_cast<std::uint32_t>(4 * t + f));
   });
 }
 
+}  // namespace
+
 SurfaceFaces::SurfaceFaces(const TetMesh& mesh, FaceChoice choice)
-    : faces_(mesh.tets.size(), mesh.points.size(), [&](std::size_t t, auto&& put) {
-        if (!mesh.tet_alive(TetId(t))) return;
-        for (int f = 0; f < 4; ++f)
-          if (choice == FaceChoice::kAll || is_surface_face(mesh, TetId(t), f))
-            put(sorted(face_vertices(mesh.tets[t], f))[0], static_cast<std::uint32_t>(4 * t + f));
-      }) {
+    : faces_(faces_by_vertices(mesh, choice)) {
   parallel_for(faces_.keys(), [&](std::size_t v) {
     const auto codes = faces_.of(v);
     std::sort(codes.begin(), codes.end(), [&](std::uint32_t a, std::uint32_t b) {

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <tuple>
 
 #include "cavea/base/buckets.h"
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/dihedral.h"
 #include "cavea/geometry/metric.h"
+#include "cavea/geometry/tet_block.h"
 #include "cavea/mesh/edge_shares.h"
 
 namespace cavea {
@@ -71,37 +73,48 @@ struct QualitySum {
     result.worst = result.smallest_dihedral = kInfinity;
     result.largest_dihedral = -kInfinity;
   }
-  void add_tet(const TetMesh& mesh, TetId t) {
-    const auto p = mesh.corners(t);
-    const double quality = tet_quality(p[0], p[1], p[2], p[3]);
+  void add_tets(const TetMesh& mesh, std::size_t begin, std::size_t end) {
+    TetBlock block;
+    std::array<TetId, TetBlock::kMost> ids;
+    for (std::size_t t = begin; t < end; ++t) {
+      if (mesh.tet_alive(TetId(t))) {
+        ids[block.size()] = TetId(t);
+        block.add(mesh.corners(TetId(t)));
+      }
+      if (!block.full() && t + 1 < end) continue;
+      add_block(block, ids);
+      block.clear();
+    }
+  }
+  void add_block(TetBlock& block, std::span<const TetId> ids) {
+    const TetBlock::Row& qualities = block.qualities();
+    const std::array<TetBlock::Row, 6>& cosines = block.cosines();
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      add_quality(ids[i], qualities[i], block, i);
+      for (std::size_t e = 0; e < cosines.size(); ++e) add_cosine(cosines[e][i], block, i, e);
+    }
+  }
+  void add_quality(TetId t, double quality, const TetBlock& block, std::size_t i) {
     ++tets;
     sum += quality;
     ++result.histogram[equal_bin(quality, 1, result.histogram.size())];
-    if (quality <= kFlat) result.flat.push_back({t, centroid(p)});
+    if (quality <= kFlat) result.flat.push_back({t, centroid(block[i])});
     if (quality < result.worst) {
       result.worst = quality;
       result.worst_tet = t;
     }
-    add_angles(p);
   }
   /// The bin of an angle is told by its cosine, unless it is near the ends of the scale or beyond
   /// all others: then the arc tangent is worth its time.
-  void add_angles(const std::array<Vec3, 4>& p) {
+  void add_cosine(double cosine, const TetBlock& block, std::size_t i, std::size_t edge) {
     constexpr double kNearEnd = 0.999;
-    std::array<Vec3, 4> normals;
-    std::array<double, 4> lengths;
-    for (int f = 0; f < 4; ++f) {
-      const auto [a, b, c] = kFaceVertices[f];
-      normals[f] = cross(p[b] - p[a], p[c] - p[a]);
-      lengths[f] = norm(normals[f]);
+    if (std::abs(cosine) < kNearEnd && cosine <= largest_cosine && cosine >= smallest_cosine) {
+      ++result.dihedral_histogram[bin_of_cosine(cosine)];
+      return;
     }
-    for (const auto& e : kEdgeVertices) {
-      const double cosine = -dot(normals[e[2]], normals[e[3]]) / (lengths[e[2]] * lengths[e[3]]);
-      if (std::abs(cosine) < kNearEnd && cosine <= largest_cosine && cosine >= smallest_cosine)
-        ++result.dihedral_histogram[bin_of_cosine(cosine)];
-      else
-        add_angle(dihedral(p[e[0]], p[e[1]], p[e[2]], p[e[3]]));
-    }
+    const auto& e = kEdgeVertices[edge];
+    const std::array<Vec3, 4> p = block[i];
+    add_angle(dihedral(p[e[0]], p[e[1]], p[e[2]], p[e[3]]));
   }
   void add_angle(double angle) {
     result.smallest_dihedral = std::min(result.smallest_dihedral, angle);
@@ -175,12 +188,10 @@ struct LengthSum {
 Buckets edge_ends(const TetMesh& mesh) {
   return Buckets(mesh.tets.size(), mesh.points.size(), [&](std::size_t t, auto&& put) {
     if (!mesh.tet_alive(TetId(t))) return;
-    const EdgeShare share(mesh, TetId(t));
-    for (const auto& e : kEdgeVertices) {
-      if (!share.has(e)) continue;
+    EdgeShare(mesh, TetId(t)).for_each([&](const auto& e) {
       const VertexId a = mesh.tets[t][e[0]], b = mesh.tets[t][e[1]];
       put(std::min(a, b), static_cast<std::uint32_t>(std::max(a, b)));
-    }
+    });
   });
 }
 
@@ -191,8 +202,7 @@ QualityStatistics quality_statistics(const TetMesh& mesh) {
       mesh.tets.size(), QualitySum{},
       [&](std::size_t begin, std::size_t end) {
         QualitySum here;
-        for (std::size_t t = begin; t < end; ++t)
-          if (mesh.tet_alive(TetId(t))) here.add_tet(mesh, TetId(t));
+        here.add_tets(mesh, begin, end);
         return here;
       },
       QualitySum::combine);

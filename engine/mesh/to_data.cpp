@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/renumber.h"
 #include "cavea/mesh/surface_edges.h"
@@ -5,9 +7,19 @@
 namespace cavea {
 namespace {
 
-void put_vertices(const TetMesh& mesh, const Renumbering& vertices, MeshData& out) {
-  out.vertices = vertices.kept_of(mesh.points);
-  out.vertex_refs = vertices.kept_of(mesh.vertex_refs);
+/// The kept ones of a member of a mesh, which it loses if it is needed no more.
+template <class T>
+std::vector<T> kept(const Renumbering& ids, const std::vector<T>& all) {
+  return ids.kept_of(all);
+}
+template <class T>
+std::vector<T> kept(const Renumbering& ids, std::vector<T>&& all) {
+  ids.keep_in(all);
+  return std::move(all);
+}
+
+template <class Mesh>
+void put_vertices(Mesh&& mesh, const Renumbering& vertices, MeshData& out) {
   bool all_known = true;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     const std::int32_t id = vertices.new_id[v];
@@ -16,21 +28,24 @@ void put_vertices(const TetMesh& mesh, const Renumbering& vertices, MeshData& ou
     if (mesh.vertex_tags[v] & tag::kRequired) out.required_vertices.push_back(id);
     all_known = all_known && mesh.sizes[v] > 0;
   }
+  out.vertices = kept(vertices, std::forward<Mesh>(mesh).points);
+  out.vertex_refs = kept(vertices, std::forward<Mesh>(mesh).vertex_refs);
   if (!all_known) return;
-  const std::vector<float> sizes = vertices.kept_of(mesh.sizes);
+  const std::vector<float> sizes = kept(vertices, std::forward<Mesh>(mesh).sizes);
   out.sizes.assign(sizes.begin(), sizes.end());
 }
 
-void put_tets(const TetMesh& mesh, const Renumbering& vertices, MeshData& out) {
+template <class Mesh>
+void put_tets(Mesh&& mesh, const Renumbering& vertices, MeshData& out) {
   const Renumbering tets = living_tets(mesh);
-  out.tets = tets.kept_of(mesh.tets);
-  out.tet_refs = tets.kept_of(mesh.tet_refs);
-  parallel_for(out.tets.size(), [&](std::size_t t) {
-    for (std::int32_t& v : out.tets[t]) v = vertices[v];
-  });
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     if (tets.new_id[t] != kNone && (mesh.tet_flags[t] & tet_flag::kRequired))
       out.required_tets.push_back(tets.new_id[t]);
+  out.tets = kept(tets, std::forward<Mesh>(mesh).tets);
+  out.tet_refs = kept(tets, std::forward<Mesh>(mesh).tet_refs);
+  parallel_for(out.tets.size(), [&](std::size_t t) {
+    for (std::int32_t& v : out.tets[t]) v = vertices[v];
+  });
 }
 
 void put_triangles(const TetMesh& mesh, const Renumbering& vertices, MeshData& out) {
@@ -66,17 +81,22 @@ void put_normals(const TetMesh& mesh, const Renumbering& vertices, MeshData& out
   }
 }
 
-}  // namespace
-
-MeshData to_data(const TetMesh& mesh) {
+template <class Mesh>
+MeshData lists_of(Mesh&& mesh) {
   MeshData out;
   const Renumbering vertices = living_vertices(mesh);
-  put_vertices(mesh, vertices, out);
-  put_tets(mesh, vertices, out);
   put_triangles(mesh, vertices, out);
   put_edges(mesh, vertices, out);
   put_normals(mesh, vertices, out);
+  // These may empty it.
+  put_tets(std::forward<Mesh>(mesh), vertices, out);
+  put_vertices(std::forward<Mesh>(mesh), vertices, out);
   return out;
 }
+
+}  // namespace
+
+MeshData to_data(const TetMesh& mesh) { return lists_of(mesh); }
+MeshData to_data(TetMesh&& mesh) { return lists_of(std::move(mesh)); }
 
 }  // namespace cavea

@@ -105,7 +105,8 @@ class TetForecast {
   const SizeLaw& law_;
 };
 
-double sum_over_tets(const TetMesh& mesh, const std::function<double(TetId)>& tets) {
+template <class TetsOf>
+double sum_over_tets(const TetMesh& mesh, TetsOf&& tets) {
   return parallel_reduce(
       mesh.tets.size(), 0.0,
       [&](std::size_t begin, std::size_t end) {

@@ -319,10 +319,16 @@ class Run {
   void trust_facets() {
     constexpr double kTrusted = 0.9;  // so that what lies between samples is within, too
     r_.max_bulge = std::min(r_.max_bulge, kTrusted * r_.hausd);
-    if (measure_bulge(*surface_) <= r_.max_bulge) return;
+    if (bulge() <= r_.max_bulge) return;
     take_model(surface_, 1);
     meter_.reset();
+    bulge_.reset();
     if (loose_) loosen();
+  }
+
+  double bulge() {
+    if (!bulge_) bulge_ = measure_bulge(*surface_);
+    return *bulge_;
   }
 
   /// Repairs make the surface finer, which would break a budget that binds. Where the size is to be
@@ -468,7 +474,7 @@ class Run {
 
   void measure() {
     report_.surface_distance = distance_.max();
-    report_.bulge = measure_bulge(*surface_);
+    report_.bulge = bulge();
     if (!is_as_before())
       report_.after = {count(mesh_), quality_statistics(mesh_), length_statistics(mesh_)};
     else
@@ -534,6 +540,7 @@ class Run {
   bool sizes_vary_ = true;  ///< over space, so that new vertices want theirs set anew
   std::optional<SurfaceModel> surface_, loose_;
   std::optional<DistanceMeter> meter_;  ///< from surface_
+  std::optional<double> bulge_;         ///< of surface_, once it was asked for
   SurfaceDistance distance_;
   VerdictTable verdicts_;
   std::int64_t most_bytes_;

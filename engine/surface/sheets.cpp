@@ -19,6 +19,12 @@ std::vector<Box> boxes_of(std::span<const Sheets::Corners> triangles) {
   return boxes;
 }
 
+/// The least dot(n, m) of all m in the box, bit for bit: rounding keeps the order.
+double least_dot(const Vec3& n, const Box& box) {
+  return std::min(n.x * box.low.x, n.x * box.high.x) + std::min(n.y * box.low.y, n.y * box.high.y) +
+         std::min(n.z * box.low.z, n.z * box.high.z);
+}
+
 }  // namespace
 
 Sheets::Sheets(std::vector<Corners> triangles, std::vector<std::array<std::int32_t, 3>> vertices,
@@ -32,6 +38,12 @@ Sheets::Sheets(std::vector<Corners> triangles, std::vector<std::array<std::int32
     const auto& [a, b, c] = triangles_[t];
     normals_[t] = normalized(cross(b - a, c - a));
   });
+  std::vector<Box> of_triangle(normals_.size());
+  parallel_for(normals_.size(), [&](std::size_t t) {
+    of_triangle[t].add(normals_[t]);
+    if (!one_sided_[t]) of_triangle[t].add(-normals_[t]);
+  });
+  normals_of_node_ = tree_.node_boxes(of_triangle);
 }
 
 bool Sheets::apart(std::size_t s, std::size_t t) const {
@@ -45,6 +57,12 @@ bool Sheets::may_face(std::size_t t, std::size_t s, const Facing& facing) const 
   // Which way the normal of an interface points is chance.
   const double turned = one_sided_[s] && one_sided_[t] ? cosine : -std::abs(cosine);
   return turned <= facing.normals_cosine && apart(s, t);
+}
+
+bool Sheets::some_may_face(std::size_t t, std::size_t node, const Facing& facing) const {
+  const Box& normals = normals_of_node_[node];
+  return least_dot(normals_[t], normals) <= facing.normals_cosine ||
+         (!one_sided_[t] && least_dot(-normals_[t], normals) <= facing.normals_cosine);
 }
 
 void Sheets::improve(std::size_t t, const Vec3& place, std::size_t s, const Facing& facing,
@@ -80,7 +98,9 @@ std::vector<double> Sheets::all_opposite(const Facing& facing,
         box.add(b), box.add(c);
         box = {box.low - Vec3{r, r, r}, box.high + Vec3{r, r, r}};
         hits[t].distance2 = r * r;
-        tree_.visit_overlapping(box, [&](std::size_t slot) {
+        // Most of what is near is the sheet of t itself, which turns away from it nowhere.
+        const auto may = [&](std::size_t node) { return some_may_face(t, node, facing); };
+        tree_.visit_overlapping(box, may, [&](std::size_t slot) {
           const auto s = std::size_t(tree_.order()[slot]);
           if (!may_face(t, s, facing)) return;
           for (const Vec3& x : {a, b, c, (a + b + c) / 3}) improve(t, x, s, facing, hits[t]);

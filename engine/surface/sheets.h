@@ -47,6 +47,9 @@ class Sheets {
   };
   /// Whether the normals of the two and their vertices allow that s is opposite t.
   bool may_face(std::size_t t, std::size_t s, const Facing& facing) const;
+  /// Whether some triangle below a node of the tree may be opposite t, for all that is known of
+  /// their normals.
+  bool some_may_face(std::size_t t, std::size_t node, const Facing& facing) const;
   /// Sees whether s is nearer to a place on t than what it has hit.
   void improve(std::size_t t, const Vec3& place, std::size_t s, const Facing& facing,
                Hit& hit) const;
@@ -57,6 +60,8 @@ class Sheets {
   std::vector<char> one_sided_;
   std::vector<Vec3> normals_;
   BoxTree tree_;
+  /// Of all below each node, both ways for two-sided triangles.
+  std::vector<Box> normals_of_node_;
 };
 
 }  // namespace cavea

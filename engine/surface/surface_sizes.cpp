@@ -152,12 +152,11 @@ bool SurfaceModel::is_flattened(std::int32_t f) const {
   return false;
 }
 
-/// The size wanted along the edge opposite corner k, which is no feature, for the sake of the
-/// crease between the two patches.
+/// The size wanted along the edge opposite corner k for the sake of the crease between the two
+/// patches, one of which is flattened, unless it is a feature.
 double SurfaceModel::crease_size(std::int32_t f, int k) const {
   const std::int32_t g = smooth_neighbors_[f][k];
-  if (g == kNone || facet_curve_[f][k] != kNone || !(is_flattened(f) || is_flattened(g)))
-    return kEndless;
+  if (facet_curve_[f][k] != kNone) return kEndless;
   const auto& of_g = smooth_neighbors_[g];
   const int l = of_g[0] == f ? 0 : of_g[1] == f ? 1 : 2;
   const std::int32_t a = facets_[f][(k + 1) % 3];
@@ -171,9 +170,15 @@ double SurfaceModel::crease_size(std::int32_t f, int k) const {
 }
 
 void SurfaceModel::set_crease_sizes() {
+  std::vector<char> flattened(facets_.size());
+  parallel_for(flattened.size(), [&](std::size_t f) { flattened[f] = is_flattened(std::int32_t(f)); });
   crease_sizes_.resize(facets_.size());
   parallel_for(facets_.size(), [&](std::size_t f) {
-    for (int k = 0; k < 3; ++k) crease_sizes_[f][k] = float(crease_size(std::int32_t(f), k));
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t g = smooth_neighbors_[f][k];
+      const bool may_crease = g != kNone && (flattened[f] || flattened[g]);
+      crease_sizes_[f][k] = float(may_crease ? crease_size(std::int32_t(f), k) : kEndless);
+    }
   });
 }
 

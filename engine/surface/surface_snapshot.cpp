@@ -153,23 +153,26 @@ void SurfaceModel::set_normals(const std::vector<Vec3>& given) {
 void SurfaceModel::set_normals_at(std::int32_t v, const Vec3& given) {
   constexpr double kShort = 0.05;  // of the fan's mean squared length
   auto corner = [&](std::int32_t f) { return facets_[f][0] == v ? 0 : facets_[f][1] == v ? 1 : 2; };
-  auto angle = [&](std::int32_t f) { return angle_at(facet_corners(f), corner(f)); };
   const std::int32_t facets = vertex_first_[v + 1] - vertex_first_[v];
   std::vector<std::int32_t> fan;
+  std::vector<FacetAngle> angles;
   for (std::int32_t i = 0; i < facets; ++i) {
     const std::int32_t first = vertex_facets_[vertex_first_[v] + i];
     if (norm2(normals_[first][corner(first)]) > 0) continue;  // of a fan before
     fan.assign(1, first);
     for_fan(first, corner(first), true, [&](std::int32_t f) { fan.push_back(f); });
+    angles.clear();
+    for (const std::int32_t f : fan) angles.push_back(angle_at(facet_corners(f), corner(f)));
     double length2 = 0;
-    for (const std::int32_t f : fan) length2 += angle(f).mean_length2();
+    for (const FacetAngle& angle : angles) length2 += angle.mean_length2();
     Vec3 sum;
-    for (const std::int32_t f : fan)
-      sum += angle(f).share_of_normal(kShort * length2 / double(fan.size()));
+    for (const FacetAngle& angle : angles)
+      sum += angle.share_of_normal(kShort * length2 / double(fan.size()));
     const double along = std::int32_t(fan.size()) == facets ? dot(given, sum) : 0;
     const Vec3 normal = along > 0 ? given : along < 0 ? -given : normalized(sum);
-    for (const std::int32_t f : fan) {
-      const Vec3 own = cross(angle(f).to_next, angle(f).to_last);
+    for (std::size_t k = 0; k < fan.size(); ++k) {
+      const std::int32_t f = fan[k];
+      const Vec3 own = cross(angles[k].to_next, angles[k].to_last);
       // A fan that folds over itself has no normal to speak of; the facet's own keeps it flat here.
       normals_[f][corner(f)] = dot(normal, own) > 0 ? normal : normalized(own);
     }

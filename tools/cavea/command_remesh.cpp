@@ -111,8 +111,9 @@ RunReport remesh_file(const RemeshArguments& arguments, Options options,
   std::vector<std::string>& warnings = run.report.warnings;
   warnings.insert(warnings.begin(), loaded.warnings.begin(), loaded.warnings.end());
 
-  MeshData data = to_data(loaded.mesh);
-  loaded.mesh = {};  // a large mesh should not be held twice while it is written
+  // A large mesh should not be held twice while it is written.
+  MeshData data = to_data(std::move(loaded.mesh));
+  loaded.mesh = {};
   data.parts = std::move(run.report.part_of_tet);
   add_directions(std::move(run.report.directions), data);
   const auto files = write_all(data, run, interrupt);

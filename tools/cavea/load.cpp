@@ -6,27 +6,13 @@
 #include "cavea/io/formats.h"
 
 namespace cavea::program {
-namespace {
 
-std::vector<std::int32_t> find_unused(const MeshData& data) {
-  std::vector<char> used(data.vertices.size(), 0);
-  for (const auto& tet : data.tets)
-    for (const std::int32_t v : tet) used[v] = 1;
-  std::vector<std::int32_t> unused;
-  for (std::size_t v = 0; v < used.size(); ++v)
-    if (!used[v]) unused.push_back(std::int32_t(v));
-  return unused;
-}
-
-}  // namespace
-
-LoadedMesh build_loaded(const MeshData& data, std::vector<std::string> warnings,
+LoadedMesh build_loaded(MeshData data, std::vector<std::string> warnings,
                         const BuildOptions& options) {
-  BuildResult built = build(data, options);
+  BuildResult built = build(std::move(data), options);
   for (std::string& text : built.summary.warnings()) warnings.push_back(std::move(text));
-  std::vector<std::int32_t> unused;
-  if (built.summary.unused_vertices != 0) unused = find_unused(data);
-  return {std::move(built.mesh), built.summary, std::move(unused), std::move(warnings)};
+  return {std::move(built.mesh), built.summary, std::move(built.unused_vertices),
+          std::move(warnings)};
 }
 
 LoadedMesh load_mesh(const std::filesystem::path& file, const std::filesystem::path& sizes,
@@ -35,7 +21,7 @@ LoadedMesh load_mesh(const std::filesystem::path& file, const std::filesystem::p
   MeshData data = read_mesh(file, &warnings);
   if (!sizes.empty()) data.sizes = read_sizes(sizes, data.vertices.size());
   try {
-    return build_loaded(data, std::move(warnings), options);
+    return build_loaded(std::move(data), std::move(warnings), options);
   } catch (const InputError& e) {
     throw InputError(file.string() + ": " + e.what());  // lists do not know where they came from
   }

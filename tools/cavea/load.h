@@ -16,7 +16,7 @@ struct LoadedMesh {
 };
 
 /// Builds the mesh and adds what build() put right to the warnings. \throw InputError
-LoadedMesh build_loaded(const MeshData& data, std::vector<std::string> warnings,
+LoadedMesh build_loaded(MeshData data, std::vector<std::string> warnings,
                         const BuildOptions& options = {});
 
 /// Reads and builds; with the sizes at the vertices in the file `sizes`, unless its name is empty.

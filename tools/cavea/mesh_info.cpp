@@ -50,7 +50,7 @@ void take_sizes(const fs::path& mesh_file, MeshData& data, std::vector<std::stri
 
 Info measure(const fs::path& file, MeshData data, std::vector<std::string> warnings) {
   take_sizes(file, data, warnings);
-  LoadedMesh loaded = build_loaded(data, std::move(warnings));
+  LoadedMesh loaded = build_loaded(std::move(data), std::move(warnings));
   TetMesh& mesh = loaded.mesh;
   Info info;
   info.warnings = loaded.warnings;
