@@ -1,6 +1,7 @@
 #include "cavea/cavity/mesh_editor.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "cavea/base/error.h"
@@ -13,11 +14,10 @@ constexpr std::size_t kFirstTableSize = 1024;
 constexpr std::uint8_t kLeaving = 128;
 constexpr Tag kLeavingTriangle = Tag(1) << 15;
 
+/// Without branches, which nobody could foretell.
 std::array<VertexId, 3> sorted_key(VertexId a, VertexId b, VertexId c) {
-  if (a > b) std::swap(a, b);
-  if (b > c) std::swap(b, c);
-  if (a > b) std::swap(a, b);
-  return {a, b, c};
+  const VertexId least = std::min(std::min(a, b), c), most = std::max(std::max(a, b), c);
+  return {least, a ^ b ^ c ^ least ^ most, most};
 }
 
 /// The library's own comparison calls memcmp, which takes longer than all of this.
@@ -55,11 +55,10 @@ VertexId MeshEditor::next_vertex() const {
 
 MeshEditor::Face& MeshEditor::slot(VertexId a, VertexId b, VertexId c) {
   const auto key = sorted_key(a, b, c);
-  const std::size_t mask = table_.size() - 1;
   std::size_t i = (std::uint32_t(key[0]) * 0x9E3779B1u ^ std::uint32_t(key[1]) * 0x85EBCA77u ^
                    std::uint32_t(key[2]) * 0xC2B2AE3Du);
-  i = (i ^ (i >> 15)) & mask;
-  while (table_[i].epoch == epoch_ && !same_key(table_[i].key, key)) i = (i + 1) & mask;
+  i = (i ^ (i >> 15)) & mask_;
+  while (table_[i].epoch == epoch_ && !same_key(table_[i].key, key)) i = (i + 1) & mask_;
   Face& face = table_[i];
   if (face.epoch != epoch_) {
     face.key = key;
@@ -215,11 +214,19 @@ void MeshEditor::release(const Cavity& cavity) {
   }
 }
 
-void MeshEditor::commit(const Cavity& cavity) {
-  const std::size_t faces = 4 * (cavity.removed_tets.size() + cavity.tets.size());
-  while (table_.size() < 2 * faces) table_.assign(2 * table_.size(), {}), epoch_ = 0;
+void MeshEditor::clear_table(const Cavity& cavity) {
+  // As most faces are of two tets, half of it stays free.
+  const std::size_t faces =
+      4 * (cavity.removed_tets.size() + cavity.tets.size()) + cavity.triangles.size();
+  const std::size_t size = std::bit_ceil(faces + 1);
+  if (table_.size() < size) table_.assign(size, {}), epoch_ = 0;
   if (++epoch_ == 0) table_.assign(table_.size(), {}), epoch_ = 1;
+  mask_ = size - 1;
   open_faces_ = 0;
+}
+
+void MeshEditor::commit(const Cavity& cavity) {
+  clear_table(cavity);
   open_hole(cavity);
   place_vertex(cavity);
   add_triangles(cavity);

@@ -59,6 +59,7 @@ class MeshEditor {
     bool open = false;
   };
 
+  void clear_table(const Cavity& cavity);
   Face& slot(VertexId a, VertexId b, VertexId c);
   void open_hole(const Cavity& cavity);
   void place_vertex(const Cavity& cavity);
@@ -73,6 +74,7 @@ class MeshEditor {
   std::vector<TriangleId> free_triangles_;
   std::vector<VertexId> free_vertices_;
   std::vector<Face> table_;  ///< open addressing; size a power of two
+  std::size_t mask_ = 0;     ///< of the part of it that a cavity uses: a small one a small part
   std::uint32_t epoch_ = 0;
   std::int64_t open_faces_ = 0, living_tets_ = 0;
   std::vector<TetId> created_;

@@ -15,36 +15,14 @@ bool in_sphere(const Vec3& p, const std::array<Vec3, 4>& tet) {
          -kOnSphere * far2 * far2 * std::sqrt(far2);
 }
 
-IdSet::IdSet(std::size_t most) {
-  std::size_t size = 64;
-  while (size < 4 * most) size *= 2;
-  slots_.resize(size);
+void IdSet::grow() {
+  std::vector<Slot> old(2 * slots_.size());
+  old.swap(slots_);
+  for (const Slot& s : old)
+    if (!is_free(s)) slots_[find(s.id)] = s;
 }
 
-void IdSet::clear() {
-  if (++epoch_ != 0) return;
-  slots_.assign(slots_.size(), {});
-  epoch_ = 1;
-}
-
-bool IdSet::insert(std::int32_t id) {
-  Slot& s = slot(id);
-  const bool was_in = s.in;
-  s = {epoch_, id, true};
-  return !was_in;
-}
-
-IdSet::Slot& IdSet::slot(std::int32_t id) {
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t i = std::uint32_t(id) * 0x9E3779B1u;
-  i = (i ^ (i >> 15)) & mask;
-  while (slots_[i].epoch == epoch_ && slots_[i].id != id) i = (i + 1) & mask;
-  if (slots_[i].epoch != epoch_) slots_[i].in = false;
-  return slots_[i];
-}
-
-DelaunayCavity::DelaunayCavity(const TetMesh& mesh)
-    : mesh_(mesh), taken_(kMostTets), marked_(4 * kMostTets) {}
+DelaunayCavity::DelaunayCavity(const TetMesh& mesh) : mesh_(mesh) {}
 
 bool DelaunayCavity::is_first(TetId t) const {
   return std::find(first_.begin(), first_.end(), t) != first_.end();

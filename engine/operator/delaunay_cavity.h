@@ -8,28 +8,57 @@
 
 namespace cavea {
 
-/// A set of ids that is cleared in no time and stays small enough for the L1 cache, whatever the
-/// mesh.
+/// A set of ids that is cleared in no time, and as small as what is in it: it stays in the L1
+/// cache, whatever the mesh.
 class IdSet {
  public:
-  /// \param most ids that are ever put in between two clear()
-  explicit IdSet(std::size_t most);
-  void clear();
+  void clear() {
+    used_ = 0;
+    if ((epoch_ += 2) != 0) return;
+    slots_.assign(slots_.size(), {});
+    epoch_ = 2;
+  }
   /// False if it was in.
-  bool insert(std::int32_t id);
-  void erase(std::int32_t id) { slot(id).in = false; }
-  bool contains(std::int32_t id) { return slot(id).in; }
+  bool insert(std::int32_t id) {
+    Slot& s = slot(id);
+    const bool was_in = s.stamp & 1;
+    s.stamp = epoch_ | 1;
+    return !was_in;
+  }
+  void erase(std::int32_t id) { slot(id).stamp = epoch_; }
+  bool contains(std::int32_t id) const { return slots_[find(id)].stamp == (epoch_ | 1); }
 
  private:
+  static constexpr std::size_t kFirstSize = 128;
   struct Slot {
-    std::uint32_t epoch = 0;
+    std::uint32_t stamp = 0;  ///< the epoch, which is even; and 1 if the id is in
     std::int32_t id = 0;
-    bool in = false;
   };
-  Slot& slot(std::int32_t id);
 
-  std::vector<Slot> slots_;  ///< open addressing; size a power of two
-  std::uint32_t epoch_ = 1;
+  bool is_free(const Slot& s) const { return (s.stamp & ~1u) != epoch_; }
+  /// Where the id is, or the free slot where it would be.
+  std::size_t find(std::int32_t id) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = (std::uint32_t(id) * 0x9E3779B1u) >> 16 & mask;
+    while (!is_free(slots_[i]) && slots_[i].id != id) i = (i + 1) & mask;
+    return i;
+  }
+  Slot& slot(std::int32_t id) {
+    std::size_t i = find(id);
+    if (is_free(slots_[i])) {
+      if (2 * ++used_ > slots_.size()) {
+        grow();
+        i = find(id);
+      }
+      slots_[i] = {epoch_, id};
+    }
+    return slots_[i];
+  }
+  void grow();
+
+  std::vector<Slot> slots_ = std::vector<Slot>(kFirstSize);  ///< open addressing; a power of two
+  std::size_t used_ = 0;
+  std::uint32_t epoch_ = 2;
 };
 
 /// Whether p is inside the circumsphere of a positive tet or about on it: where points of lattices
@@ -59,12 +88,13 @@ class DelaunayCavity {
     first_.assign(first.begin(), first.end());
     tets_ = first_;
     taken_.clear();
-    for (const TetId t : tets_) taken_.insert(t);
+    marked_.clear();  // what has been asked
+    for (const TetId t : tets_) taken_.insert(t), marked_.insert(t);
     for (const TetId t : tets_)
       if (const Verdict v = admit(t); v != Verdict::kAccept) return v;
     for (std::size_t i = 0; i < tets_.size(); ++i)
       for (const FaceLink link : mesh_.links[tets_[i]]) {
-        if (!link.is_tet() || taken_.contains(link.tet())) continue;
+        if (!link.is_tet() || !marked_.insert(link.tet())) continue;
         const TetId t = link.tet();
         if (!in_sphere(p, mesh_.corners(t))) continue;
         const Verdict v = admit(t);

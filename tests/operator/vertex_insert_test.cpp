@@ -18,7 +18,7 @@ const Box kEverywhere{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 TEST(IdSet, RemembersWhatIsInUntilItIsCleared) {
   constexpr std::uint64_t kSeed = 5;
   Random random(kSeed);
-  IdSet set(200);
+  IdSet set;
   for (int again = 0; again < 50; ++again) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", run " << again);
     std::vector<char> in(500, 0);
