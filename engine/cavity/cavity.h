@@ -22,6 +22,10 @@ struct NewTet {
 struct Cavity {
   std::vector<TetId> removed_tets;
   std::vector<NewTet> tets;
+  /// What is behind the faces of the new tets, if not empty: others of them, by their place in
+  /// `tets`, but for the last face, which stands on that of a removed tet. So commit() need not
+  /// find out. Only for cavities without triangles of their own.
+  std::vector<std::array<FaceLink, 4>> links;
   std::vector<TriangleId> removed_triangles;
   std::vector<Triangle> triangles;
   VertexId removed_vertex = kNone;
@@ -31,6 +35,7 @@ struct Cavity {
   void clear() {
     removed_tets.clear();
     tets.clear();
+    links.clear();
     removed_triangles.clear();
     triangles.clear();
     removed_vertex = kNone;

@@ -1,6 +1,7 @@
 #include "cavea/cavity/mesh_editor.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "cavea/base/error.h"
@@ -13,11 +14,10 @@ constexpr std::size_t kFirstTableSize = 1024;
 constexpr std::uint8_t kLeaving = 128;
 constexpr Tag kLeavingTriangle = Tag(1) << 15;
 
+/// Without branches, which nobody could foretell.
 std::array<VertexId, 3> sorted_key(VertexId a, VertexId b, VertexId c) {
-  if (a > b) std::swap(a, b);
-  if (b > c) std::swap(b, c);
-  if (a > b) std::swap(a, b);
-  return {a, b, c};
+  const VertexId least = std::min(std::min(a, b), c), most = std::max(std::max(a, b), c);
+  return {least, a ^ b ^ c ^ least ^ most, most};
 }
 
 /// The library's own comparison calls memcmp, which takes longer than all of this.
@@ -55,11 +55,10 @@ VertexId MeshEditor::next_vertex() const {
 
 MeshEditor::Face& MeshEditor::slot(VertexId a, VertexId b, VertexId c) {
   const auto key = sorted_key(a, b, c);
-  const std::size_t mask = table_.size() - 1;
   std::size_t i = (std::uint32_t(key[0]) * 0x9E3779B1u ^ std::uint32_t(key[1]) * 0x85EBCA77u ^
                    std::uint32_t(key[2]) * 0xC2B2AE3Du);
-  i = (i ^ (i >> 15)) & mask;
-  while (table_[i].epoch == epoch_ && !same_key(table_[i].key, key)) i = (i + 1) & mask;
+  i = (i ^ (i >> 15)) & mask_;
+  while (table_[i].epoch == epoch_ && !same_key(table_[i].key, key)) i = (i + 1) & mask_;
   Face& face = table_[i];
   if (face.epoch != epoch_) {
     face.key = key;
@@ -69,6 +68,18 @@ MeshEditor::Face& MeshEditor::slot(VertexId a, VertexId b, VertexId c) {
   return face;
 }
 
+/// A face of the hole: what is behind it waits for a new tet.
+void MeshEditor::open_face(TetId t, int f, Face& face) {
+  face.link = mesh_.links[t][f];
+  face.side = 0;
+  if (face.link.is_triangle()) {
+    const Triangle& s = mesh_.triangles[face.link.triangle()];
+    face.side = s.sides[0] == FaceLink::to_tet(t, f) ? 0 : 1;
+  }
+  face.open = true;
+  ++open_faces_;
+}
+
 void MeshEditor::open_hole(const Cavity& cavity) {
   for (TetId t : cavity.removed_tets) mesh_.tet_flags[t] |= kLeaving;
   for (TriangleId t : cavity.removed_triangles) mesh_.triangles[t].tags |= kLeavingTriangle;
@@ -76,19 +87,11 @@ void MeshEditor::open_hole(const Cavity& cavity) {
     for (int f = 0; f < 4; ++f) {
       const FaceLink link = mesh_.links[t][f];
       if (link.is_tet() && (mesh_.tet_flags[link.tet()] & kLeaving)) continue;
-      std::int8_t side = 0;
-      if (link.is_triangle()) {
-        const Triangle& s = mesh_.triangles[link.triangle()];
-        if (s.tags & kLeavingTriangle) continue;
-        side = s.sides[0] == FaceLink::to_tet(t, f) ? 0 : 1;
-      }
+      if (link.is_triangle() && (mesh_.triangles[link.triangle()].tags & kLeavingTriangle))
+        continue;
       const auto& k = mesh_.tets[t];
       const int* fv = kFaceVertices[f];
-      Face& face = slot(k[fv[0]], k[fv[1]], k[fv[2]]);
-      face.link = link;
-      face.side = side;
-      face.open = true;
-      ++open_faces_;
+      open_face(t, f, slot(k[fv[0]], k[fv[1]], k[fv[2]]));
     }
 }
 
@@ -183,19 +186,45 @@ void MeshEditor::add_tets(const Cavity& cavity) {
     mesh_.qualities[t] = n.quality;
     mesh_.tet_refs[t] = n.ref;
     mesh_.tet_flags[t] = tet_flag::kAskAll;
+    for (const VertexId v : n.v) mesh_.vertex_tets[v] = t;
+  }
+}
+
+void MeshEditor::link_by_table(const Cavity& cavity) {
+  for (std::size_t i = 0; i < created_.size(); ++i)
     for (int f = 0; f < 4; ++f) {
-      mesh_.vertex_tets[n.v[f]] = t;
+      const auto& v = cavity.tets[i].v;
       const int* fv = kFaceVertices[f];
-      Face& face = slot(n.v[fv[0]], n.v[fv[1]], n.v[fv[2]]);
+      Face& face = slot(v[fv[0]], v[fv[1]], v[fv[2]]);
       if (face.open) {
-        attach(t, f, face);
+        attach(created_[i], f, face);
       } else {
-        face.link = FaceLink::to_tet(t, f);
+        face.link = FaceLink::to_tet(created_[i], f);
         face.side = 0;
         face.open = true;
         ++open_faces_;
       }
     }
+}
+
+void MeshEditor::open_bases(const Cavity& cavity) {
+  bases_.resize(cavity.links.size());
+  for (std::size_t i = 0; i < bases_.size(); ++i) {
+    const FaceLink base = cavity.links[i][3];
+    open_face(base.tet(), base.face(), bases_[i]);
+  }
+}
+
+void MeshEditor::link_as_told(const Cavity& cavity) {
+  for (std::size_t i = 0; i < created_.size(); ++i) {
+    for (int f = 0; f < 3; ++f) {
+      const FaceLink other = cavity.links[i][f];
+      const auto j = std::size_t(other.tet());
+      if (j >= created_.size() || cavity.links[j][other.face()] != FaceLink::to_tet(TetId(i), f))
+        throw InternalError("a cavity does not close");
+      mesh_.links[created_[i]][f] = FaceLink::to_tet(created_[j], other.face());
+    }
+    attach(created_[i], 3, bases_[i]);
   }
 }
 
@@ -215,15 +244,29 @@ void MeshEditor::release(const Cavity& cavity) {
   }
 }
 
-void MeshEditor::commit(const Cavity& cavity) {
-  const std::size_t faces = 4 * (cavity.removed_tets.size() + cavity.tets.size());
-  while (table_.size() < 2 * faces) table_.assign(2 * table_.size(), {}), epoch_ = 0;
+void MeshEditor::clear_table(const Cavity& cavity) {
+  // As most faces are of two tets, half of it stays free.
+  const std::size_t faces =
+      4 * (cavity.removed_tets.size() + cavity.tets.size()) + cavity.triangles.size();
+  const std::size_t size = std::bit_ceil(faces + 1);
+  if (table_.size() < size) table_.assign(size, {}), epoch_ = 0;
   if (++epoch_ == 0) table_.assign(table_.size(), {}), epoch_ = 1;
+  mask_ = size - 1;
+}
+
+void MeshEditor::commit(const Cavity& cavity) {
   open_faces_ = 0;
-  open_hole(cavity);
+  const bool told = !cavity.links.empty();
+  if (told) {
+    open_bases(cavity);
+  } else {
+    clear_table(cavity);
+    open_hole(cavity);
+  }
   place_vertex(cavity);
   add_triangles(cavity);
   add_tets(cavity);
+  told ? link_as_told(cavity) : link_by_table(cavity);
   release(cavity);
   if (open_faces_ != 0) throw InternalError("a cavity did not close");
 }

@@ -59,11 +59,16 @@ class MeshEditor {
     bool open = false;
   };
 
+  void clear_table(const Cavity& cavity);
   Face& slot(VertexId a, VertexId b, VertexId c);
+  void open_face(TetId t, int f, Face& face);
   void open_hole(const Cavity& cavity);
   void place_vertex(const Cavity& cavity);
   void add_triangles(const Cavity& cavity);
   void add_tets(const Cavity& cavity);
+  void link_by_table(const Cavity& cavity);
+  void open_bases(const Cavity& cavity);
+  void link_as_told(const Cavity& cavity);
   void attach(TetId t, int f, Face& face);
   void release(const Cavity& cavity);
   TetId new_tet();
@@ -73,7 +78,9 @@ class MeshEditor {
   std::vector<TriangleId> free_triangles_;
   std::vector<VertexId> free_vertices_;
   std::vector<Face> table_;  ///< open addressing; size a power of two
+  std::size_t mask_ = 0;     ///< of the part of it that a cavity uses: a small one a small part
   std::uint32_t epoch_ = 0;
+  std::vector<Face> bases_;  ///< of the new tets, where the cavity tells them
   std::int64_t open_faces_ = 0, living_tets_ = 0;
   std::vector<TetId> created_;
 };

@@ -1,50 +1,18 @@
 #include "cavea/operator/delaunay_cavity.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace cavea {
 
-bool in_sphere(const Vec3& p, const std::array<Vec3, 4>& tet) {
-  constexpr double kOnSphere = 1e-9;  // rounding of points a thousandth of the mesh apart is 1e-12
-  const Vec3 a = tet[0] - p, b = tet[1] - p, c = tet[2] - p, d = tet[3] - p;
-  const Vec3 ab = cross(a, b), cd = cross(c, d);
-  const double a2 = norm2(a), b2 = norm2(b), c2 = norm2(c), d2 = norm2(d);
-  const double far2 = std::max(std::max(a2, b2), std::max(c2, d2));
-  return a2 * dot(b, cd) - b2 * dot(a, cd) + c2 * dot(d, ab) - d2 * dot(c, ab) >
-         -kOnSphere * far2 * far2 * std::sqrt(far2);
-}
-
-IdSet::IdSet(std::size_t most) {
-  std::size_t size = 64;
-  while (size < 4 * most) size *= 2;
-  slots_.resize(size);
-}
-
-void IdSet::clear() {
-  if (++epoch_ != 0) return;
-  slots_.assign(slots_.size(), {});
-  epoch_ = 1;
-}
-
-bool IdSet::insert(std::int32_t id) {
-  Slot& s = slot(id);
-  const bool was_in = s.in;
-  s = {epoch_, id, true};
-  return !was_in;
-}
-
-IdSet::Slot& IdSet::slot(std::int32_t id) {
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t i = std::uint32_t(id) * 0x9E3779B1u;
-  i = (i ^ (i >> 15)) & mask;
-  while (slots_[i].epoch == epoch_ && slots_[i].id != id) i = (i + 1) & mask;
-  if (slots_[i].epoch != epoch_) slots_[i].in = false;
-  return slots_[i];
+void IdMap::grow() {
+  std::vector<Slot> old(2 * slots_.size());
+  old.swap(slots_);
+  for (const Slot& s : old)
+    if (!is_free(s)) slots_[find(s.id)] = s;
 }
 
 DelaunayCavity::DelaunayCavity(const TetMesh& mesh)
-    : mesh_(mesh), taken_(kMostTets), marked_(4 * kMostTets) {}
+    : mesh_(mesh), beside_(std::size_t(kMostVertices * kMostVertices)) {}
 
 bool DelaunayCavity::is_first(TetId t) const {
   return std::find(first_.begin(), first_.end(), t) != first_.end();
@@ -54,24 +22,55 @@ bool DelaunayCavity::is_first(TetId t) const {
 void DelaunayCavity::keep_connected() {
   connected_ = first_;
   marked_.clear();
-  for (const TetId t : first_) marked_.insert(t);
+  for (const TetId t : first_) marked_[t] = 1;
   for (std::size_t i = 0; i < connected_.size(); ++i)
-    for (const FaceLink link : mesh_.links[connected_[i]])
-      if (link.is_tet() && taken_.contains(link.tet()) && marked_.insert(link.tet()))
-        connected_.push_back(link.tet());
+    for (const FaceLink link : mesh_.links[connected_[i]]) {
+      if (!link.is_tet() || !contains(link.tet())) continue;
+      std::int32_t& mark = marked_[link.tet()];
+      if (mark == IdMap::kNew) connected_.push_back(link.tet());
+      mark = 1;
+    }
   for (TetId t : tets_)
-    if (!marked_.contains(t)) taken_.erase(t);
+    if (marked_.at(t) == IdMap::kNew) taken_[t] = kOut;
   tets_.swap(connected_);
 }
 
-bool DelaunayCavity::encloses_vertex(const Cavity& cavity) {
+void DelaunayCavity::number_vertices(const Cavity& cavity) {
   marked_.clear();
-  for (const NewTet& t : cavity.tets)
-    for (int k = 0; k < 3; ++k) marked_.insert(t.v[std::size_t(k)]);
-  for (TetId t : tets_)
-    for (VertexId v : mesh_.tets[t])
-      if (!marked_.contains(v)) return true;
-  return false;
+  corners_.clear();
+  vertices_ = 0;
+  for (const NewTet& t : cavity.tets) {
+    auto& corners = corners_.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::int32_t& number = marked_[t.v[k]];
+      if (number == IdMap::kNew) number = vertices_++;
+      corners[k] = number;
+    }
+  }
+}
+
+bool DelaunayCavity::encloses_vertex(const Cavity& cavity) {
+  number_vertices(cavity);
+  return std::ranges::any_of(hidden_, [&](VertexId v) { return marked_.at(v) == IdMap::kNew; });
+}
+
+void DelaunayCavity::link(Cavity& cavity) {
+  cavity.links.clear();
+  if (vertices_ > kMostVertices) return;
+  // Seen from the vertex, the new tets are triangles; those at an edge run along it both ways.
+  const auto at = [&](std::int32_t from, std::int32_t to) -> FaceLink& {
+    return beside_[std::size_t(from * kMostVertices + to)];
+  };
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const auto [a, b, c] = corners_[i];
+    at(b, c) = FaceLink::to_tet(TetId(i), 0);
+    at(c, a) = FaceLink::to_tet(TetId(i), 1);
+    at(a, b) = FaceLink::to_tet(TetId(i), 2);
+  }
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const auto [a, b, c] = corners_[i];
+    cavity.links.push_back({at(c, b), at(a, c), at(b, a), bases_[i]});
+  }
 }
 
 }  // namespace cavea

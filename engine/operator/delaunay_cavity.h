@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,34 +10,69 @@
 
 namespace cavea {
 
-/// A set of ids that is cleared in no time and stays small enough for the L1 cache, whatever the
-/// mesh.
-class IdSet {
+/// Numbers for ids; it is cleared in no time, and about as small as what is in it: it stays in the
+/// L1 cache, whatever the mesh.
+class IdMap {
  public:
-  /// \param most ids that are ever put in between two clear()
-  explicit IdSet(std::size_t most);
-  void clear();
-  /// False if it was in.
-  bool insert(std::int32_t id);
-  void erase(std::int32_t id) { slot(id).in = false; }
-  bool contains(std::int32_t id) { return slot(id).in; }
+  static constexpr std::int32_t kNew = -1;  ///< the number of an id that has none
+
+  void clear() {
+    used_ = 0;
+    if (++epoch_ != 0) return;
+    slots_.assign(slots_.size(), {});
+    epoch_ = 1;
+  }
+  /// To read or to set; until the next one is asked for.
+  std::int32_t& operator[](std::int32_t id) {
+    std::size_t i = find(id);
+    if (is_free(slots_[i])) {
+      if (2 * ++used_ > slots_.size()) {
+        grow();
+        i = find(id);
+      }
+      slots_[i] = {epoch_, id, kNew};
+    }
+    return slots_[i].number;
+  }
+  std::int32_t at(std::int32_t id) const {
+    const Slot& s = slots_[find(id)];
+    return is_free(s) ? kNew : s.number;
+  }
 
  private:
+  static constexpr std::size_t kFirstSize = 256;
   struct Slot {
     std::uint32_t epoch = 0;
-    std::int32_t id = 0;
-    bool in = false;
+    std::int32_t id = 0, number = kNew;
   };
-  Slot& slot(std::int32_t id);
 
-  std::vector<Slot> slots_;  ///< open addressing; size a power of two
+  bool is_free(const Slot& s) const { return s.epoch != epoch_; }
+  /// Where the id is, or the free slot where it would be.
+  std::size_t find(std::int32_t id) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = (std::uint32_t(id) * 0x9E3779B1u) >> 16 & mask;
+    while (!is_free(slots_[i]) && slots_[i].id != id) i = (i + 1) & mask;
+    return i;
+  }
+  void grow();
+
+  std::vector<Slot> slots_ = std::vector<Slot>(kFirstSize);  ///< open addressing; a power of two
+  std::size_t used_ = 0;
   std::uint32_t epoch_ = 1;
 };
 
 /// Whether p is inside the circumsphere of a positive tet or about on it: where points of lattices
 /// are on common spheres and in common planes, the cavity is then what p sees all of. Whatever this
 /// says, the cavity is proven by the qualities of its new tets.
-bool in_sphere(const Vec3& p, const std::array<Vec3, 4>& tet);
+inline bool in_sphere(const Vec3& p, const std::array<Vec3, 4>& tet) {
+  constexpr double kOnSphere = 1e-9;  // rounding of points a thousandth of the mesh apart is 1e-12
+  const Vec3 a = tet[0] - p, b = tet[1] - p, c = tet[2] - p, d = tet[3] - p;
+  const Vec3 ab = cross(a, b), cd = cross(c, d);
+  const double a2 = norm2(a), b2 = norm2(b), c2 = norm2(c), d2 = norm2(d);
+  const double far2 = std::max(std::max(a2, b2), std::max(c2, d2));
+  return a2 * dot(b, cd) - b2 * dot(a, cd) + c2 * dot(d, ab) - d2 * dot(c, ab) >
+         -kOnSphere * far2 * far2 * std::sqrt(far2);
+}
 
 /// The cavity of the Delaunay kernel (Bowyer 1981, Watson 1981): what is reached from the first
 /// tets through tets whose circumsphere contains the vertex, without crossing surface triangles,
@@ -52,28 +89,34 @@ class DelaunayCavity {
   explicit DelaunayCavity(const TetMesh& mesh);
 
   /// \param first tets that the cavity must have
-  /// \param admit(tet): kAccept takes it, kBreaksFeature leaves it out, all else ends the search
-  /// with that verdict; of the first ones only acceptance will do
+  /// \param admit(tet, k): k is the one vertex that no tet before it had, 4 for the first ones;
+  /// kAccept takes it, kBreaksFeature leaves it out, all else ends the search with that verdict; of
+  /// the first ones only acceptance will do
   template <class Admit>
   Verdict grow(const Vec3& p, std::span<const TetId> first, Admit&& admit) {
     first_.assign(first.begin(), first.end());
     tets_ = first_;
     taken_.clear();
-    for (const TetId t : tets_) taken_.insert(t);
+    for (const TetId t : tets_) taken_[t] = kIn;
     for (const TetId t : tets_)
-      if (const Verdict v = admit(t); v != Verdict::kAccept) return v;
-    for (std::size_t i = 0; i < tets_.size(); ++i)
-      for (const FaceLink link : mesh_.links[tets_[i]]) {
-        if (!link.is_tet() || taken_.contains(link.tet())) continue;
-        const TetId t = link.tet();
-        if (!in_sphere(p, mesh_.corners(t))) continue;
-        const Verdict v = admit(t);
-        if (v == Verdict::kBreaksFeature) continue;
-        if (v != Verdict::kAccept) return v;
-        if (tets_.size() == kMostTets) return Verdict::kTooLarge;
-        taken_.insert(t);
-        tets_.push_back(t);
+      if (const Verdict v = admit(t, 4); v != Verdict::kAccept) return v;
+    inner_.clear();
+    for (std::size_t i = 0; i < tets_.size(); ++i) {
+      std::uint8_t inner = 0;
+      for (int f = 0; f < 4; ++f) {
+        const FaceLink link = mesh_.links[tets_[i]][f];
+        if (!link.is_tet()) continue;
+        std::int32_t& state = taken_[link.tet()];
+        if (state == IdMap::kNew) {
+          const Verdict v = ask(p, link, admit);
+          if (v != Verdict::kAccept && v != Verdict::kBreaksFeature) return v;
+          state = v == Verdict::kAccept ? kIn : kOut;
+        }
+        inner |= std::uint8_t(state << f);
       }
+      inner_.push_back(inner);
+    }
+    inner_is_known_ = true;
     return Verdict::kAccept;
   }
 
@@ -87,11 +130,13 @@ class DelaunayCavity {
                    bool& all) {
     all = true;
     cavity.tets.clear();
-    for (const TetId t : tets_) {
-      if (sees(p, t, least_quality, is_open, cavity)) continue;
-      if (is_first(t)) return false;
-      taken_.erase(t);
-      all = false;
+    bases_.clear();
+    hidden_.clear();
+    for (std::size_t i = 0; i < tets_.size(); ++i) {
+      if (sees(p, i, least_quality, is_open, cavity)) continue;
+      if (is_first(tets_[i])) return false;
+      taken_[tets_[i]] = kOut;
+      all = inner_is_known_ = false;
     }
     if (!all) keep_connected();
     return true;
@@ -99,33 +144,73 @@ class DelaunayCavity {
 
   /// Whether a vertex of the cavity would have no tets any more. \pre the new tets are in `cavity`
   bool encloses_vertex(const Cavity& cavity);
+  /// Tells the cavity what its new tets link to, if its vertices are not too many. \pre no triangle
+  /// was open, encloses_vertex() has been asked
+  void link(Cavity& cavity);
 
   const std::vector<TetId>& tets() const { return tets_; }
-  bool contains(TetId t) { return taken_.contains(t); }
+  bool contains(TetId t) const { return taken_.at(t) == kIn; }
 
  private:
+  static constexpr std::int32_t kOut = 0, kIn = 1;
+  /// Where the mesh is Delaunay, hardly any cavity has more.
+  static constexpr std::int32_t kMostVertices = 64;
+
   bool is_first(TetId t) const;
   void keep_connected();
+  void number_vertices(const Cavity& cavity);
+
+  /// What is met for the first time: kBreaksFeature if it stays out.
+  template <class Admit>
+  Verdict ask(const Vec3& p, FaceLink link, Admit&& admit) {
+    const TetId t = link.tet();
+    if (!in_sphere(p, mesh_.corners(t))) return Verdict::kBreaksFeature;
+    const Verdict v = admit(t, link.face());
+    if (v != Verdict::kAccept) return v;
+    if (tets_.size() == kMostTets) return Verdict::kTooLarge;
+    tets_.push_back(t);
+    return v;
+  }
+
+  bool is_inner(std::size_t i, int f) const {
+    if (inner_is_known_) return inner_[i] >> f & 1;
+    const FaceLink link = mesh_.links[tets_[i]][f];
+    return link.is_tet() && contains(link.tet());
+  }
 
   template <class IsOpen>
-  bool sees(const Vec3& p, TetId t, double least_quality, IsOpen&& is_open, Cavity& cavity) {
+  bool sees(const Vec3& p, std::size_t i, double least_quality, IsOpen&& is_open, Cavity& cavity) {
+    const TetId t = tets_[i];
     const auto& k = mesh_.tets[t];
+    unsigned on_hull = 0;
     for (int f = 0; f < 4; ++f) {
+      if (is_inner(i, f)) continue;
       const FaceLink link = mesh_.links[t][f];
-      if (link.is_tet() && taken_.contains(link.tet())) continue;
       if (link.is_triangle() && is_open(link.triangle())) continue;
       const int* fv = kFaceVertices[f];
       const VertexId a = k[fv[0]], b = k[fv[2]], c = k[fv[1]];
       const double q = tet_quality(mesh_.points[a], mesh_.points[b], mesh_.points[c], p);
       if (q < least_quality) return false;
+      on_hull |= 15u & ~(1u << f);
+      bases_.push_back(FaceLink::to_tet(t, f));
       cavity.tets.push_back({{a, b, c, kNone}, mesh_.tet_refs[t], float(q)});
     }
+    for (int j = 0; j < 4; ++j)
+      if (!(on_hull >> j & 1)) hidden_.push_back(k[j]);
     return true;
   }
 
   const TetMesh& mesh_;
   std::vector<TetId> first_, tets_, connected_;
-  IdSet taken_, marked_;
+  std::vector<std::uint8_t> inner_;  ///< a bit for each face of tets_: whether it has both sides
+  bool inner_is_known_ = false;      ///< until one is left out
+  std::vector<FaceLink> bases_;  ///< faces on which the new tets stand
+  std::vector<VertexId> hidden_;  ///< on no new tet of the tet that has them
+  IdMap taken_;   ///< kIn, or kOut if it was left out
+  IdMap marked_;  ///< vertices of the new tets, numbered; tets that are connected
+  std::int32_t vertices_ = 0;
+  std::vector<std::array<std::int32_t, 3>> corners_;  ///< numbers of each new tet's vertices
+  std::vector<FaceLink> beside_;  ///< new tet and its face at an edge, by the numbers of its ends
 };
 
 }  // namespace cavea

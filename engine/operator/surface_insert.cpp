@@ -247,7 +247,7 @@ Verdict SurfaceInsert::try_cavity(const EdgeOnSurface& edge, VertexId id, bool w
   const double least =
       std::max(kFlat, std::min(DelaunayCavity::kLeastQuality, kKeptQuality * before));
   std::size_t checked = 0;  // the shell is always taken, whatever its edges: these stay
-  const Verdict grown = hole_.grow(vertex_.point, shell, [&](TetId t) {
+  const Verdict grown = hole_.grow(vertex_.point, shell, [&](TetId t, int) {
     return checked++ < shell.size() ? Verdict::kAccept : admit(t);
   });
   if (grown != Verdict::kAccept) return grown;

@@ -52,22 +52,25 @@ TetId VertexInsert::locate(VertexId from, const Vec3& p) const {
   return kNone;
 }
 
-Verdict VertexInsert::may_take(TetId t) const {
+Verdict VertexInsert::may_take(const NewVertex& x, TetId t, int fresh) const {
   if (mesh_.tet_flags[t] & tet_flag::kRequired) return Verdict::kBreaksFeature;
+  const auto& k = mesh_.tets[t];
+  const auto all = [&](auto&& holds) {
+    return fresh < 4 ? holds(k[fresh]) : std::ranges::all_of(k, holds);
+  };
+  if (!all([&](VertexId v) { return in_reach(v); })) return Verdict::kFrozen;
   int required = 0;
-  for (VertexId v : mesh_.tets[t]) {
-    if (!in_reach(v)) return Verdict::kFrozen;
-    required += (mesh_.vertex_tags[v] & tag::kOnRequiredEdge) != 0;
-  }
+  for (VertexId v : k) required += (mesh_.vertex_tags[v] & tag::kOnRequiredEdge) != 0;
   // An edge of it may be one that must stay.
-  return required > 1 ? Verdict::kBreaksFeature : Verdict::kAccept;
+  if (required > 1) return Verdict::kBreaksFeature;
+  const double least2 = kNearest * kNearest * (double(x.size) * x.size);
+  const bool far = all([&](VertexId v) { return distance2(mesh_.points[v], x.point) >= least2; });
+  return far && !near_surface(x, t) ? Verdict::kAccept : Verdict::kBadLength;
 }
 
-bool VertexInsert::too_near(const NewVertex& x, TetId t) const {
+bool VertexInsert::near_surface(const NewVertex& x, TetId t) const {
   const auto& k = mesh_.tets[t];
   const double size2 = double(x.size) * x.size;
-  for (VertexId v : k)
-    if (distance2(mesh_.points[v], x.point) < kNearest * kNearest * size2) return true;
   for (int f = 0; f < 4; ++f) {
     if (!mesh_.links[t][f].is_triangle()) continue;
     const int* fv = kFaceVertices[f];
@@ -82,10 +85,7 @@ bool VertexInsert::too_near(const NewVertex& x, TetId t) const {
 Verdict VertexInsert::operator()(const NewVertex& vertex, VertexId id, TetId start,
                                  Cavity& cavity) {
   cavity.clear();
-  const auto admit = [&](TetId t) {
-    const Verdict v = may_take(t);
-    return v == Verdict::kAccept && too_near(vertex, t) ? Verdict::kBadLength : v;
-  };
+  const auto admit = [&](TetId t, int fresh) { return may_take(vertex, t, fresh); };
   const Verdict grown = hole_.grow(vertex.point, {&start, 1}, admit);
   if (grown != Verdict::kAccept) return grown;
   bool all = false;
@@ -98,6 +98,7 @@ Verdict VertexInsert::operator()(const NewVertex& vertex, VertexId id, TetId sta
   if (hole_.encloses_vertex(cavity)) return Verdict::kBreaksTopology;
   for (NewTet& t : cavity.tets) t.v[3] = id;
   cavity.removed_tets = hole_.tets();
+  hole_.link(cavity);
   cavity.inserts_vertex = true;
   cavity.vertex = vertex;
   return Verdict::kAccept;

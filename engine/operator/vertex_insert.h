@@ -25,9 +25,10 @@ class VertexInsert {
   Verdict operator()(const NewVertex& vertex, VertexId id, TetId start, Cavity& cavity);
 
  private:
-  Verdict may_take(TetId t) const;
+  /// \param fresh the only vertex of it that is not of a tet taken before; 4: all are
+  Verdict may_take(const NewVertex& vertex, TetId t, int fresh) const;
   bool in_reach(VertexId v) const { return reach_.contains(mesh_.points[v]); }
-  bool too_near(const NewVertex& vertex, TetId t) const;
+  bool near_surface(const NewVertex& vertex, TetId t) const;
 
   const TetMesh& mesh_;
   const Box reach_;

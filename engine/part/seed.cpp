@@ -23,6 +23,8 @@ constexpr int kColors = 8;
 
 /// Tets that an insertion adds are 7 on the average in a lattice.
 constexpr std::int32_t kTetsPerVertex = 8, kSpareTets = 64;
+/// One of so many tets and vertices more have room in the mesh.
+constexpr std::size_t kSpareShare = 16;
 
 struct Seed {
   Vec3 point;
@@ -47,10 +49,7 @@ class SeedLevel {
   VerdictTable run() {
     find_seeds();
     for (const double shift : {0.0, 0.5}) insert_in_blocks(shift);
-    std::vector<Block> rest(1);
-    constexpr double kFar = std::numeric_limits<double>::max();
-    rest[0] = {0, seeds_.size(), Box{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}}, {}, {}, {}};
-    insert(rest, 0, 1);
+    insert_at_once();
     return verdicts_;
   }
 
@@ -133,10 +132,15 @@ class SeedLevel {
     keep_left(blocks);
   }
 
-  void insert(std::vector<Block>& blocks, std::size_t begin, std::size_t end) {
-    make_holes(blocks);
-    insert_color(blocks, begin, end);
-    keep_left(blocks);
+  /// What no block could insert.
+  void insert_at_once() {
+    if (seeds_.empty()) return;
+    std::vector<Block> all(1);
+    constexpr double kFar = std::numeric_limits<double>::max();
+    all[0] = {0, seeds_.size(), Box{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}}, {}, {}, {}};
+    make_holes(all);
+    insert_color(all, 0, 1);
+    keep_left(all);
   }
 
   void make_holes(std::vector<Block>& blocks) {
@@ -146,6 +150,10 @@ class SeedLevel {
       b.holes = {TetId(tets), kTetsPerVertex * n + kSpareTets, VertexId(vertices), n};
       tets += std::size_t(b.holes.tets), vertices += std::size_t(b.holes.vertices);
     }
+    // What one pass leaves is little: the next one is to find room without moving all.
+    if (tets > mesh_.tets.capacity()) mesh_.reserve_tets(tets + tets / kSpareShare);
+    if (vertices > mesh_.points.capacity())
+      mesh_.reserve_vertices(vertices + vertices / kSpareShare);
     mesh_.resize_tets(tets);
     mesh_.resize_vertices(vertices);
   }

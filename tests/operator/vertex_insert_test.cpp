@@ -15,26 +15,21 @@ namespace {
 constexpr double kFar = std::numeric_limits<double>::max();
 const Box kEverywhere{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 
-TEST(IdSet, RemembersWhatIsInUntilItIsCleared) {
+TEST(IdMap, RemembersNumbersUntilItIsCleared) {
   constexpr std::uint64_t kSeed = 5;
   Random random(kSeed);
-  IdSet set(200);
+  IdMap map;
   for (int again = 0; again < 50; ++again) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", run " << again);
-    std::vector<char> in(500, 0);
+    std::vector<int> numbers(500, IdMap::kNew);
     for (int k = 0; k < 200; ++k) {
       const int id = random.below(500);
-      if (random.below(3) == 0) {
-        set.erase(id);
-        in[std::size_t(id)] = 0;
-      } else {
-        EXPECT_EQ(set.insert(id), !in[std::size_t(id)]);
-        in[std::size_t(id)] = 1;
-      }
+      EXPECT_EQ(map[id], numbers[std::size_t(id)]);
+      map[id] = numbers[std::size_t(id)] = random.below(3) - 1;
     }
-    for (int id = 0; id < 500; ++id) EXPECT_EQ(set.contains(id), bool(in[std::size_t(id)]));
-    set.clear();
-    EXPECT_FALSE(set.contains(3));
+    for (int id = 0; id < 500; ++id) EXPECT_EQ(map.at(id), numbers[std::size_t(id)]);
+    map.clear();
+    EXPECT_EQ(map.at(3), IdMap::kNew);
   }
 }
 
