@@ -4,13 +4,6 @@
 
 namespace cavea {
 
-void IdMap::grow() {
-  std::vector<Slot> old(2 * slots_.size());
-  old.swap(slots_);
-  for (const Slot& s : old)
-    if (!is_free(s)) slots_[find(s.id)] = s;
-}
-
 DelaunayCavity::DelaunayCavity(const TetMesh& mesh)
     : mesh_(mesh), beside_(std::size_t(kMostVertices * kMostVertices)) {}
 

@@ -5,61 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "cavea/base/id_map.h"
 #include "cavea/cavity/cavity.h"
 #include "cavea/cavity/verdict.h"
 
 namespace cavea {
-
-/// Numbers for ids; it is cleared in no time, and about as small as what is in it: it stays in the
-/// L1 cache, whatever the mesh.
-class IdMap {
- public:
-  static constexpr std::int32_t kNew = -1;  ///< the number of an id that has none
-
-  void clear() {
-    used_ = 0;
-    if (++epoch_ != 0) return;
-    slots_.assign(slots_.size(), {});
-    epoch_ = 1;
-  }
-  /// To read or to set; until the next one is asked for.
-  std::int32_t& operator[](std::int32_t id) {
-    std::size_t i = find(id);
-    if (is_free(slots_[i])) {
-      if (2 * ++used_ > slots_.size()) {
-        grow();
-        i = find(id);
-      }
-      slots_[i] = {epoch_, id, kNew};
-    }
-    return slots_[i].number;
-  }
-  std::int32_t at(std::int32_t id) const {
-    const Slot& s = slots_[find(id)];
-    return is_free(s) ? kNew : s.number;
-  }
-
- private:
-  static constexpr std::size_t kFirstSize = 256;
-  struct Slot {
-    std::uint32_t epoch = 0;
-    std::int32_t id = 0, number = kNew;
-  };
-
-  bool is_free(const Slot& s) const { return s.epoch != epoch_; }
-  /// Where the id is, or the free slot where it would be.
-  std::size_t find(std::int32_t id) const {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t i = (std::uint32_t(id) * 0x9E3779B1u) >> 16 & mask;
-    while (!is_free(slots_[i]) && slots_[i].id != id) i = (i + 1) & mask;
-    return i;
-  }
-  void grow();
-
-  std::vector<Slot> slots_ = std::vector<Slot>(kFirstSize);  ///< open addressing; a power of two
-  std::size_t used_ = 0;
-  std::uint32_t epoch_ = 1;
-};
 
 /// Whether p is inside the circumsphere of a positive tet or about on it: where points of lattices
 /// are on common spheres and in common planes, the cavity is then what p sees all of. Whatever this

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <utility>
 
-#include "cavea/base/id_set.h"
+#include "cavea/base/id_map.h"
 #include "cavea/base/ids_where.h"
 #include "cavea/base/parallel.h"
 #include "cavea/mesh/compact.h"
@@ -56,17 +57,20 @@ std::vector<TetId> with_layers(const TetMesh& m, std::vector<TetId> tets, int la
 }
 
 std::vector<TetId> with_layers_of_few(const TetMesh& m, std::vector<TetId> tets, int layers) {
-  IdSet reached, vertices;
-  for (const TetId t : tets) reached.insert(t);
+  IdMap reached, vertices;
+  const auto is_new = [](IdMap& ids, std::int32_t id) {
+    return std::exchange(ids[id], 1) == IdMap::kNew;
+  };
+  for (const TetId t : tets) reached[t] = 1;
   std::vector<TetId> ball;
   for (std::size_t begin = 0; layers > 0; --layers) {
     const std::size_t end = tets.size();
     for (; begin < end; ++begin)
       for (const VertexId v : m.tets[tets[begin]]) {
-        if (!vertices.insert(v)) continue;
+        if (!is_new(vertices, v)) continue;
         small_ball(m, v, ball);
         for (const TetId t : ball)
-          if (reached.insert(t)) tets.push_back(t);
+          if (is_new(reached, t)) tets.push_back(t);
       }
   }
   std::sort(tets.begin(), tets.end());
