@@ -13,6 +13,7 @@ constexpr std::size_t kFirstTableSize = 1024;
 /// Marks the links of tets and triangles that the cavity removes, while commit() runs.
 constexpr std::uint8_t kLeaving = 128;
 constexpr Tag kLeavingTriangle = Tag(1) << 15;
+constexpr char kNotClosed[] = "a cavity did not close";
 
 /// Without branches, which nobody could foretell.
 std::array<VertexId, 3> sorted_key(VertexId a, VertexId b, VertexId c) {
@@ -80,15 +81,22 @@ void MeshEditor::open_face(TetId t, int f, Face& face) {
   ++open_faces_;
 }
 
-void MeshEditor::open_hole(const Cavity& cavity) {
+void MeshEditor::mark_leaving(const Cavity& cavity) {
   for (TetId t : cavity.removed_tets) mesh_.tet_flags[t] |= kLeaving;
   for (TriangleId t : cavity.removed_triangles) mesh_.triangles[t].tags |= kLeavingTriangle;
+}
+
+/// Whether what is behind a face of a removed tet stays.
+bool MeshEditor::stays(FaceLink link) const {
+  if (link.is_tet()) return !(mesh_.tet_flags[link.tet()] & kLeaving);
+  return !link.is_triangle() || !(mesh_.triangles[link.triangle()].tags & kLeavingTriangle);
+}
+
+void MeshEditor::open_hole(const Cavity& cavity) {
+  mark_leaving(cavity);
   for (TetId t : cavity.removed_tets)
     for (int f = 0; f < 4; ++f) {
-      const FaceLink link = mesh_.links[t][f];
-      if (link.is_tet() && (mesh_.tet_flags[link.tet()] & kLeaving)) continue;
-      if (link.is_triangle() && (mesh_.triangles[link.triangle()].tags & kLeavingTriangle))
-        continue;
+      if (!stays(mesh_.links[t][f])) continue;
       const auto& k = mesh_.tets[t];
       const int* fv = kFaceVertices[f];
       open_face(t, f, slot(k[fv[0]], k[fv[1]], k[fv[2]]));
@@ -207,22 +215,40 @@ void MeshEditor::link_by_table(const Cavity& cavity) {
     }
 }
 
+/// The same for the last faces of the new tets: proves that they are the faces of the hole.
 void MeshEditor::open_bases(const Cavity& cavity) {
-  bases_.resize(cavity.links.size());
-  for (std::size_t i = 0; i < bases_.size(); ++i) {
-    const FaceLink base = cavity.links[i][3];
-    open_face(base.tet(), base.face(), bases_[i]);
+  mark_leaving(cavity);
+  std::size_t hull = 0;
+  for (TetId t : cavity.removed_tets)
+    for (FaceLink link : mesh_.links[t]) hull += stays(link);
+  if (hull != cavity.tets.size() || hull != cavity.links.size()) throw InternalError(kNotClosed);
+  bases_.resize(hull);
+  for (std::size_t i = 0; i < hull; ++i) {
+    const TetId t = cavity.links[i][3].tet();
+    const int f = cavity.links[i][3].face();
+    const auto& k = mesh_.tets[t];
+    const auto& v = cavity.tets[i].v;
+    const int* fv = kFaceVertices[f];
+    if (!(mesh_.tet_flags[t] & kLeaving) || !stays(mesh_.links[t][f]) || k[fv[0]] != v[0] ||
+        k[fv[1]] != v[2] || k[fv[2]] != v[1])
+      throw InternalError(kNotClosed);
+    open_face(t, f, bases_[i]);
   }
 }
 
+/// Proves that the faces fit each other, and so that no two new tets have the same base.
 void MeshEditor::link_as_told(const Cavity& cavity) {
   for (std::size_t i = 0; i < created_.size(); ++i) {
+    const auto& v = cavity.tets[i].v;
     for (int f = 0; f < 3; ++f) {
       const FaceLink other = cavity.links[i][f];
       const auto j = std::size_t(other.tet());
-      if (j >= created_.size() || cavity.links[j][other.face()] != FaceLink::to_tet(TetId(i), f))
-        throw InternalError("a cavity does not close");
-      mesh_.links[created_[i]][f] = FaceLink::to_tet(created_[j], other.face());
+      const int g = other.face();
+      if (!other.is_tet() || j >= created_.size() || g == 3) throw InternalError(kNotClosed);
+      const auto& w = cavity.tets[j].v;
+      if (v[(f + 1) % 3] != w[(g + 2) % 3] || v[(f + 2) % 3] != w[(g + 1) % 3] || v[3] != w[3])
+        throw InternalError(kNotClosed);
+      mesh_.links[created_[i]][f] = FaceLink::to_tet(created_[j], g);
     }
     attach(created_[i], 3, bases_[i]);
   }
@@ -268,7 +294,7 @@ void MeshEditor::commit(const Cavity& cavity) {
   add_tets(cavity);
   told ? link_as_told(cavity) : link_by_table(cavity);
   release(cavity);
-  if (open_faces_ != 0) throw InternalError("a cavity did not close");
+  if (open_faces_ != 0) throw InternalError(kNotClosed);
 }
 
 void MeshEditor::move(VertexId v, const NewVertex& to, const std::vector<TetId>& tets,

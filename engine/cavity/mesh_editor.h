@@ -61,6 +61,8 @@ class MeshEditor {
 
   void clear_table(const Cavity& cavity);
   Face& slot(VertexId a, VertexId b, VertexId c);
+  void mark_leaving(const Cavity& cavity);
+  bool stays(FaceLink link) const;
   void open_face(TetId t, int f, Face& face);
   void open_hole(const Cavity& cavity);
   void place_vertex(const Cavity& cavity);

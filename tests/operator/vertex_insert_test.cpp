@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "cavea/base/error.h"
 #include "cavea/cavity/mesh_editor.h"
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/compact.h"
@@ -76,6 +77,37 @@ TEST(VertexInsert, KeepsTheMeshAndTheDomain) {
 }
 
 /// Points at random that keep apart make slivers, but few.
+TEST(VertexInsert, TellsLinksThatTheEditorProves) {
+  const auto commit_changed = [](auto&& change) {
+    TetMesh mesh = build(kuhn_cube(2)).mesh;
+    MeshEditor editor(mesh);
+    VertexInsert insert(mesh, kEverywhere);
+    Cavity cavity;
+    NewVertex x;
+    x.point = {0.31, 0.27, 0.22};
+    x.size = 0.01f;
+    const TetId t = insert.locate(0, x.point);
+    ASSERT_NE(t, kNone);
+    ASSERT_EQ(insert(x, editor.next_vertex(), t, cavity), Verdict::kAccept);
+    ASSERT_EQ(cavity.links.size(), cavity.tets.size());
+    change(cavity);
+    editor.commit(cavity);
+  };
+  EXPECT_NO_THROW(commit_changed([](Cavity&) {}));
+  EXPECT_THROW(commit_changed([](Cavity& c) { c.tets.pop_back(); }), InternalError);
+  EXPECT_THROW(commit_changed([](Cavity& c) { c.removed_tets.pop_back(); }), InternalError);
+  EXPECT_THROW(commit_changed([](Cavity& c) { std::swap(c.tets[0].v[0], c.tets[0].v[1]); }),
+               InternalError);
+  EXPECT_THROW(commit_changed([](Cavity& c) { std::swap(c.tets[0], c.tets[1]); }), InternalError);
+  EXPECT_THROW(commit_changed([](Cavity& c) { std::swap(c.links[0][0], c.links[0][1]); }),
+               InternalError);
+  EXPECT_THROW(commit_changed([](Cavity& c) {
+                 c.tets[1] = c.tets[0];
+                 c.links[1] = c.links[0];
+               }),
+               InternalError);
+}
+
 TEST(VertexInsert, MakesGoodTets) {
   TetMesh mesh = build(kuhn_cube(3)).mesh;
   Insertions(mesh, kEverywhere, 0.1F, 20000, 3);
