@@ -14,6 +14,7 @@
 #include "cavea/field/wanted_sizes.h"
 #include "cavea/mesh/check.h"
 #include "cavea/mesh/compact.h"
+#include "cavea/mesh/copy.h"
 #include "cavea/part/residual.h"
 #include "cavea/part/round.h"
 #include "cavea/remesh/budget.h"
@@ -67,7 +68,7 @@ class Run {
  public:
   Run(const TetMesh& input, const SizeField& field, const Options& options,
       Effort effort = Effort::kWhereNeeded, double finer = 1)
-      : mesh_(input),
+      : mesh_(copy_of(input)),
         input_(input),
         field_(field),
         options_(options),
@@ -240,7 +241,7 @@ class Run {
   bool fill() {
     if (r_.freeze.insert) return false;
     constexpr double kFew = 0.05;  // of all vertices
-    TetMesh before = mesh_;
+    TetMesh before = copy_of(mesh_);
     const bool needles = report_.before.quality.mean < kOfNeedles;
     if (needles)
       timed("surface", [&] { refine_among_needles(); });
@@ -320,7 +321,7 @@ class Run {
     constexpr double kTrusted = 0.9;  // so that what lies between samples is within, too
     r_.max_bulge = std::min(r_.max_bulge, kTrusted * r_.hausd);
     if (bulge() <= r_.max_bulge) return;
-    take_model(surface_, 1);
+    surface_->limit_bulge(r_.max_bulge);
     meter_.reset();
     bulge_.reset();
     if (loose_) loosen();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "cavea/base/ids_where.h"
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/closest.h"
 #include "cavea/surface/facet_tree.h"
@@ -55,15 +56,17 @@ struct OutputSurface {
 
   OutputSurface() = default;
   explicit OutputSurface(const TetMesh& mesh) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const Triangle& s = mesh.triangles[t];
-      if (!s.alive()) continue;
-      ids.push_back(TriangleId(t));
-      corners.push_back({mesh.points[s.v[0]], mesh.points[s.v[1]], mesh.points[s.v[2]]});
-      const auto anchor = [&](int k) { return mesh.anchors[s.v[k]].facet; };
-      anchors.push_back({anchor(0), anchor(1), anchor(2)});
-      facets.push_back(std::max({kNone, anchor(0), anchor(1), anchor(2)}));
-    }
+    ids = ids_where(mesh.triangles.size(), [&](TriangleId t) { return mesh.triangles[t].alive(); });
+    corners.resize(ids.size());
+    anchors.resize(ids.size());
+    facets.resize(ids.size());
+    parallel_for(ids.size(), [&](std::size_t i) {
+      const auto& v = mesh.triangles[ids[i]].v;
+      const auto anchor = [&](int k) { return mesh.anchors[v[k]].facet; };
+      corners[i] = {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
+      anchors[i] = {anchor(0), anchor(1), anchor(2)};
+      facets[i] = std::max({kNone, anchor(0), anchor(1), anchor(2)});
+    });
   }
 };
 

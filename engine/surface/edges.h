@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "cavea/base/parallel.h"
 #include "cavea/mesh/tet_mesh.h"
 
 namespace cavea {
@@ -26,6 +27,17 @@ void for_each_edge(const std::vector<EdgeSide>& sides, F&& f) {
     f(sides.data() + i, sides.data() + j);
     i = j;
   }
+}
+
+/// The same from many threads, in any order.
+template <class F>
+void parallel_for_each_edge(const std::vector<EdgeSide>& sides, F&& f) {
+  parallel_for(sides.size(), [&](std::size_t i) {
+    if (i > 0 && sides[i].same_edge(sides[i - 1])) return;
+    std::size_t j = i + 1;
+    while (j < sides.size() && sides[j].same_edge(sides[i])) ++j;
+    f(sides.data() + i, sides.data() + j);
+  });
 }
 
 }  // namespace cavea

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "cavea/base/parallel.h"
 #include "cavea/surface/edges.h"
 
 namespace cavea {
@@ -58,8 +59,9 @@ class FoldNormals {
  public:
   FoldNormals(const TetMesh& m, const std::vector<EdgeSide>& sides, const FeatureOptions& o)
       : normals_(m.triangles.size()) {
-    for (std::size_t t = 0; t < normals_.size(); ++t)
+    parallel_for(normals_.size(), [&](std::size_t t) {
       if (m.triangles[t].alive()) normals_[t] = triangle_normal(m, m.triangles[t]);
+    });
     if (o.sliver > 0)
       look_across(short_sides_of_slivers(m, o.sliver), sides,
                   std::cos(o.angle * std::numbers::pi / 180));
@@ -71,16 +73,16 @@ class FoldNormals {
   /// `sliver`, else -1.
   static std::vector<std::int8_t> short_sides_of_slivers(const TetMesh& m, double sliver) {
     std::vector<std::int8_t> sides(m.triangles.size(), -1);
-    for (std::size_t t = 0; t < sides.size(); ++t) {
+    parallel_for(sides.size(), [&](std::size_t t) {
       const Triangle& s = m.triangles[t];
-      if (!s.alive()) continue;
+      if (!s.alive()) return;
       const Vec3 x[3] = {m.points[s.v[0]], m.points[s.v[1]], m.points[s.v[2]]};
       double lengths[3];
       for (int k = 0; k < 3; ++k) lengths[k] = distance(x[(k + 1) % 3], x[(k + 2) % 3]);
       const auto [shortest, longest] = std::minmax_element(lengths, lengths + 3);
       if (norm(cross(x[1] - x[0], x[2] - x[0])) < sliver * *longest)
         sides[t] = std::int8_t(shortest - lengths);
-    }
+    });
     return sides;
   }
 
@@ -158,7 +160,7 @@ Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end,
 void tag_edges(TetMesh& m, const std::vector<EdgeSide>& sides, const FeatureOptions& options) {
   const Sharpness sharpness(options);
   const FoldNormals normals(m, sides, options);
-  for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+  parallel_for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
     Tag tags = edge_tags(m, begin, end, sharpness, normals);
     if ((tags & tag::kRidge) && options.may_be_ridge && !options.may_be_ridge(begin->a, begin->b))
       tags &= Tag(~tag::kRidge);

@@ -17,7 +17,8 @@ struct FeatureOptions {
   /// A triangle of less height than this makes no fold between two, at its longer edges, that make
   /// none without it: its own normal is that of noise.
   double sliver = 0;
-  /// If set, only edges that it takes are ridges, whether found or carried by the mesh.
+  /// If set, only edges that it takes are ridges, whether found or carried by the mesh. Called from
+  /// many threads.
   std::function<bool(VertexId, VertexId)> may_be_ridge = {};
 };
 

@@ -92,6 +92,10 @@ class SurfaceModel {
   /// Bounds the wanted sizes by those of the spots, too, be they below hmin; not while others read.
   void add_spots(const std::vector<Spot>& spots);
 
+  /// As if the settings had had this bound of the bulge, or theirs if that is lower; not while others
+  /// read.
+  void limit_bulge(double max_bulge);
+
   static std::int32_t curve_anchor(std::int32_t edge) { return -2 - edge; }
   static std::int32_t curve_of(std::int32_t anchored_facet) { return -2 - anchored_facet; }
   static bool is_curve(const Anchor& a) { return a.facet <= -2; }
@@ -111,6 +115,7 @@ class SurfaceModel {
     double u = 0, v = 0, distance2 = 0;
   };
 
+  void shape();
   void take_facets(TetMesh& mesh);
   void link_facets();
   std::vector<std::array<Vec3, 3>> all_corners() const;

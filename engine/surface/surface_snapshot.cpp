@@ -38,14 +38,28 @@ SurfaceModel::SurfaceModel(TetMesh& mesh, const Settings& settings) : settings_(
   set_normals(given_normals(mesh));
   sheets_.emplace(all_corners(), facets_, facet_exterior_);
   set_tolerances();
-  set_tangents();
-  set_control_points();
   curve_tree_.emplace(curve_boxes());
   set_chain_lengths();
-  set_sizes();
-  set_crease_sizes();
+  shape();
   set_anchors(mesh);
   snapshot_vertex_ = {};
+}
+
+/// All that follows from how far patches may bulge.
+void SurfaceModel::shape() {
+  set_tangents();
+  set_control_points();
+  set_sizes();
+  set_crease_sizes();
+}
+
+void SurfaceModel::limit_bulge(double max_bulge) {
+  settings_.max_bulge = std::min(settings_.max_bulge, max_bulge);
+  const double bulge = settings_.max_bulge / settings_.tolerance;
+  for (std::size_t f = 0; f < facets_.size(); ++f)
+    for (std::int32_t v : facets_[f])
+      vertex_bulge_[v] = std::min(vertex_bulge_[v], bulge * facet_hausd_[f]);
+  shape();
 }
 
 void SurfaceModel::take_facets(TetMesh& mesh) {
