@@ -71,7 +71,7 @@ inline constexpr Tag kWasInterface = 512;
 inline constexpr Tag kPinched = 1024;
 /// Triangle between tets of one reference, kept on request.
 inline constexpr Tag kInternal = 2048;
-/// Vertex that was on the interface between parts in some round; for statistics.
+/// Vertex that was on the interface between parts in a round of the last phase; for statistics.
 inline constexpr Tag kMetInterface = 4096;
 /// What makes a surface edge one that patches end at.
 inline constexpr Tag kFeature = kRidge | kReferenceEdge | kNonManifold | kRequired;

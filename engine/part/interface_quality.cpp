@@ -18,6 +18,17 @@ void add(InterfaceQuality::Histogram& sum, const InterfaceQuality::Histogram& mo
 
 }  // namespace
 
+void remember_interface(TetMesh& m) {
+  parallel_for(m.vertex_tags.size(), [&](std::size_t v) {
+    if (m.vertex_tags[v] & tag::kWasInterface) m.vertex_tags[v] |= tag::kMetInterface;
+  });
+}
+
+void forget_interfaces(TetMesh& m) {
+  parallel_for(m.vertex_tags.size(),
+               [&](std::size_t v) { m.vertex_tags[v] &= Tag(~tag::kMetInterface); });
+}
+
 InterfaceQuality interface_quality(const TetMesh& m) {
   return parallel_reduce(
       m.tets.size(), InterfaceQuality{},

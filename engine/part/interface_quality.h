@@ -6,10 +6,14 @@
 
 namespace cavea {
 
+/// What was interface in the last round is remembered until it is to be forgotten.
+void remember_interface(TetMesh& mesh);
+void forget_interfaces(TetMesh& mesh);
+
 /// Histograms of the tets' qualities, ten bins from 0 to 1.
 struct InterfaceQuality {
   using Histogram = std::array<std::int64_t, 10>;
-  Histogram at_interface{};  ///< tets with a vertex that was on the interface of parts in any round
+  Histogram at_interface{};  ///< tets with a vertex that was on an interface that is remembered
   Histogram elsewhere{};
 };
 

@@ -9,6 +9,7 @@
 #include "cavea/mesh/compact.h"
 #include "cavea/mesh/wanted_tets.h"
 #include "cavea/part/extract.h"
+#include "cavea/part/interface_quality.h"
 #include "cavea/part/region.h"
 #include "cavea/part/run_parts.h"
 #include "cavea/partition/blocks.h"
@@ -119,6 +120,7 @@ RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
   const CycleResult cycle = run_parts(parts, surface, settings);
   std::vector<std::int32_t> part_of(mesh.tets.size(), kIdle);
   stitch_parts(mesh, parts, part_of);
+  remember_interface(mesh);
   remove_holes(mesh, part_of);
   if (part_of_tet) *part_of_tet = std::move(part_of);
   return {cycle, count};

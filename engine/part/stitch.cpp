@@ -138,7 +138,7 @@ class Stitch {
   Tag stitched_tags(std::size_t p, std::size_t v, VertexId to) const {
     const Part& part = parts_[p];
     Tag tags = Tag(part.mesh.vertex_tags[v] & ~(tag::kFrozen | tag::kWasInterface));
-    if (shared(part, v)) tags |= tag::kWasInterface | tag::kMetInterface;
+    if (shared(part, v)) tags |= tag::kWasInterface;
     const bool was_there = v < part.own_vertices.size() + part.shared_vertices.size();
     // The mesh may be a part itself, whose interface stays frozen.
     return was_there ? Tag(tags | (mesh_.vertex_tags[to] & tag::kFrozen)) : tags;

@@ -87,7 +87,10 @@ class Run {
     mends_ = ask_if_it_stands();
     const bool filled = !mends_ && fill();
     const std::vector<Phase> phases = mends_ ? standing_recipe(r_) : recipe(r_, filled);
-    for (const Phase& phase : phases) timed(phase.name, [&] { run_phase(phase); });
+    for (const Phase& phase : phases) {
+      forget_interfaces(mesh_);
+      timed(phase.name, [&] { run_phase(phase); });
+    }
     timed("residual", [&] { run_residual_of(phases.back()); });
     mend_poor();
     finish();
