@@ -5,8 +5,8 @@
 
 namespace cavea {
 
-/// Numbers for ids; it is cleared in no time, and about as small as what is in it: few ids of a large
-/// mesh stay in the L1 cache.
+/// Numbers for ids; it is cleared in no time, and about as small as what is in it: few ids of a
+/// large mesh stay in the L1 cache.
 class IdMap {
  public:
   static constexpr std::int32_t kNew = -1;  ///< the number of an id that has none

@@ -301,7 +301,7 @@ void MeshEditor::move(VertexId v, const NewVertex& to, const std::vector<TetId>&
                       const std::vector<float>& qualities) {
   // Smaller changes do not turn a refusal into an acceptance often enough to pay for asking again.
   constexpr float kSwapAgain = 0.03f, kMoveAgain = 0.02f;  // by quality
-  constexpr double kLengthChange = 0.05;  // in wanted sizes
+  constexpr double kLengthChange = 0.05;                   // in wanted sizes
   const bool far = distance(mesh_.points[v], to.point) > kLengthChange * to.size;
   mesh_.points[v] = to.point;
   mesh_.sizes[v] = to.size;

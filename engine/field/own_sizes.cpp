@@ -43,8 +43,7 @@ bool has_required_edges(const TetMesh& m) {
 
 std::vector<float> mean_edge_lengths(const TetMesh& mesh) {
   return mean_lengths(mesh, [&](TetId t, auto&& f) {
-    EdgeShare(mesh, t).for_each(
-        [&](const auto& e) { f(mesh.tets[t][e[0]], mesh.tets[t][e[1]]); });
+    EdgeShare(mesh, t).for_each([&](const auto& e) { f(mesh.tets[t][e[0]], mesh.tets[t][e[1]]); });
   });
 }
 

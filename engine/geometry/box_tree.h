@@ -53,7 +53,8 @@ class BoxTree {
   /// some more.
   template <class Visit>
   void visit_overlapping(const Box& box, Visit&& visit) const {
-    visit_overlapping(box, [](std::size_t) { return true; }, visit);
+    visit_overlapping(
+        box, [](std::size_t) { return true; }, visit);
   }
   /// The same without the nodes for which may(node) is false, and all below them.
   template <class May, class Visit>

@@ -154,9 +154,9 @@ class DelaunayCavity {
   std::vector<TetId> first_, tets_, connected_;
   std::vector<std::uint8_t> inner_;  ///< a bit for each face of tets_: whether it has both sides
   bool inner_is_known_ = false;      ///< until one is left out
-  std::vector<FaceLink> bases_;  ///< faces on which the new tets stand
-  std::vector<VertexId> hidden_;  ///< on no new tet of the tet that has them
-  IdMap taken_;   ///< kIn, or kOut if it was left out
+  std::vector<FaceLink> bases_;      ///< faces on which the new tets stand
+  std::vector<VertexId> hidden_;     ///< on no new tet of the tet that has them
+  IdMap taken_;                      ///< kIn, or kOut if it was left out
   IdMap marked_;  ///< vertices of the new tets, numbered; tets that are connected
   std::int32_t vertices_ = 0;
   std::vector<std::array<std::int32_t, 3>> corners_;  ///< numbers of each new tet's vertices

@@ -77,7 +77,8 @@ struct Options {
   /// say. No tet may become flat, no vertex of the exterior boundary leave it by more than hausd.
   std::function<void(TetMesh&)> finish;
 
-  /// Size of the parts that rounds cut the mesh into; 0: what fits caches. The result depends on it.
+  /// Size of the parts that rounds cut the mesh into; 0: what fits caches. The result depends on
+  /// it.
   std::int64_t tets_per_part = 0;
   int threads = 0;                                ///< 0: all cores
   std::function<void(const Progress&)> progress;  ///< called from the calling thread only

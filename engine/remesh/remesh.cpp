@@ -11,6 +11,7 @@
 #include "cavea/base/parallel.h"
 #include "cavea/base/timer.h"
 #include "cavea/field/own_sizes.h"
+#include "cavea/field/spots.h"
 #include "cavea/field/wanted_sizes.h"
 #include "cavea/mesh/check.h"
 #include "cavea/mesh/compact.h"
@@ -51,6 +52,8 @@ constexpr double kOfNeedles = 0.1;
 
 /// A budget of tets is met when it is exceeded by no more than this share.
 constexpr double kBudgetMargin = 0.1;
+
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 /// Worse tets are named in the report: where the domain allows, operators end above.
 constexpr double kSoundQuality = 0.3;
@@ -195,10 +198,14 @@ class Run {
 
   void resize() {
     budget_.fit(mesh_, [&] {
-      set_wanted_sizes(mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_,
-                       {std::min(r_.hmin, spot_floor_), r_.hmax, r_.local, finer_, budget_.scale(),
-                        r_.hgrad, r_.hgradreq, r_.freeze.surface});
+      set_wanted_sizes(
+          mesh_, [&](const Anchor& a) { return surface_->size(a); }, field_, size_bounds(r_.hmin));
     });
+  }
+
+  SizeBounds size_bounds(double hmin) const {
+    return {hmin,     r_.hmax,     r_.local,         finer_, budget_.scale(),
+            r_.hgrad, r_.hgradreq, r_.freeze.surface};
   }
 
   /// The surface of larger edges is farther from the model, as the square of their scale: operators
@@ -432,41 +439,41 @@ class Run {
   void repair() {
     // The smallest size is a wish, but what bounds a uniform one from below would forbid repairs.
     constexpr double kFinest = 0.125;
-    spot_floor_ = r_.uniform() ? kFinest * r_.smallest : r_.smallest;
+    const double finest = r_.uniform() ? kFinest * r_.smallest : r_.smallest;
     // The distance goes with the square of the size; a little more for good measure.
     auto factor = [&](const FarSample& f) {
       return std::max(0.5, 0.75 * std::sqrt(kMeasuredShare * f.hausd / f.distance));
     };
-    std::vector<SurfaceModel::Spot> spots;
+    std::vector<SizeSphere> spots;
     // The triangle's vertices are to lie inside the spot, whatever rounding does.
     constexpr double kReach = 1.01;
     auto add = [&](const FarSample& f) {
       if (f.triangle == kNone) return;
-      SurfaceModel::Spot spot{f.where, 0, r_.largest};
+      SizeSphere spot{f.where, 0, r_.largest};
       for (VertexId v : mesh_.triangles[std::size_t(f.triangle)].v) {
         spot.radius = std::max(spot.radius, kReach * distance(f.where, mesh_.points[v]));
         spot.size = std::min(spot.size, double(mesh_.sizes[v]));
       }
-      spot.size = std::max(spot.size * factor(f), spot_floor_);
+      spot.size = std::max(spot.size * factor(f), finest);
       spots.push_back(spot);
     };
     std::for_each(distance_.far_facets.begin(), distance_.far_facets.end(), add);
     std::for_each(distance_.far_triangles.begin(), distance_.far_triangles.end(), add);
-    resize_for(spots);
+    resize_for(std::move(spots), finest);
     run_phases(mending_recipe(r_));
   }
 
-  /// Vertices have moved since their sizes were set, so that all would change a little: only what
-  /// is the spots' doing is to.
-  void resize_for(const std::vector<SurfaceModel::Spot>& spots) {
+  /// Vertices have moved since their sizes were set, so that set anew all would change a little:
+  /// what the spots alone ask for counts where it is less.
+  void resize_for(std::vector<SizeSphere> spots, double finest) {
     const std::vector<float> kept = mesh_.sizes;
-    resize();
-    const std::vector<float> without = mesh_.sizes;
-    surface_->add_spots(spots);
-    resize();
-    parallel_for(kept.size(), [&](std::size_t v) {
-      if (mesh_.sizes[v] == without[v]) mesh_.sizes[v] = kept[v];
-    });
+    const SizeField in_spots = field_inside(std::move(spots));
+    const auto on_surface = [&](const Anchor& a) {
+      return a.facet == kNone ? kEndless : in_spots(surface_->at(a));
+    };
+    set_wanted_sizes(mesh_, on_surface, {}, size_bounds(std::min(r_.hmin, finest)));
+    parallel_for(kept.size(),
+                 [&](std::size_t v) { mesh_.sizes[v] = std::min(mesh_.sizes[v], kept[v]); });
     ask_nothing(mesh_);
     ask_changed_lengths(mesh_, kept);
   }
@@ -530,8 +537,6 @@ class Run {
 
   const TetMesh& input_;
   SizeField field_;
-  /// No repair asks for less; of no concern before one.
-  double spot_floor_ = std::numeric_limits<double>::infinity();
   const Options& options_;
   Effort effort_;
   double finer_;  ///< of the sizes that are not given

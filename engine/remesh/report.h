@@ -77,7 +77,7 @@ struct Report {
   std::vector<Target> targets;
   /// The worst tets below a quality of 0.3 or the target, if that is higher; at most 20.
   std::vector<StubbornTet> stubborn;
-  std::vector<std::string> warnings;  ///< of the input
+  std::vector<std::string> warnings;      ///< of the input
   std::vector<std::int32_t> part_of_tet;  ///< of the last parallel round, by output tet
 
   SurfaceDirections directions;  ///< by output vertex, if options.directions asks for them

@@ -66,6 +66,9 @@ class SurfaceModel {
   /// in [hmin, hmax].
   double size(const Anchor& anchor) const;
 
+  /// The place of an anchor, which has one.
+  Vec3 at(const Anchor& anchor) const;
+
   std::size_t facets() const { return facets_.size(); }
   std::size_t curve_edges() const { return curves_.size(); }
   std::array<Vec3, 2> curve_ends(std::int32_t e) const {
@@ -84,16 +87,8 @@ class SurfaceModel {
     return {points_[facets_[f][0]], points_[facets_[f][1]], points_[facets_[f][2]]};
   }
 
-  /// A ball in which the surface is wanted finer than the shape itself tells.
-  struct Spot {
-    Vec3 place;
-    double radius = 0, size = 0;
-  };
-  /// Bounds the wanted sizes by those of the spots, too, be they below hmin; not while others read.
-  void add_spots(const std::vector<Spot>& spots);
-
-  /// As if the settings had had this bound of the bulge, or theirs if that is lower; not while others
-  /// read.
+  /// As if the settings had had this bound of the bulge, or theirs if that is lower; not while
+  /// others read.
   void limit_bulge(double max_bulge);
 
   static std::int32_t curve_anchor(std::int32_t edge) { return -2 - edge; }
@@ -142,7 +137,6 @@ class SurfaceModel {
   double crease_size(std::int32_t facet, int k) const;
   void set_crease_sizes();
   double size_near_creases(std::int32_t facet, const Vec3& place, double size) const;
-  double spot_size(const Vec3& place, double size) const;
   double size_on_curve(std::int32_t edge, const Vec3& place, double size) const;
   double narrow_size(std::int32_t edge, const Vec3& place, double size) const;
   bool share_patch(std::int32_t a, std::int32_t b) const;
@@ -194,9 +188,7 @@ class SurfaceModel {
       vertex_bulge_;  ///< largest distance of control points near it from the facets
   std::optional<Sheets> sheets_;
   std::optional<BoxTree> curve_tree_;
-  std::vector<Spot> spots_;
-  std::optional<BoxTree> spot_tree_;  ///< if there are any
-  std::vector<double> sizes_;         ///< at the vertices
+  std::vector<double> sizes_;  ///< at the vertices
   std::vector<std::array<float, 3>>
       crease_sizes_;  ///< along the edge opposite corner k; infinite without a crease
   std::vector<std::int32_t> snapshot_vertex_;  ///< of the mesh's vertices, during construction only

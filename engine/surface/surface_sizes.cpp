@@ -171,7 +171,8 @@ double SurfaceModel::crease_size(std::int32_t f, int k) const {
 
 void SurfaceModel::set_crease_sizes() {
   std::vector<char> flattened(facets_.size());
-  parallel_for(flattened.size(), [&](std::size_t f) { flattened[f] = is_flattened(std::int32_t(f)); });
+  parallel_for(flattened.size(),
+               [&](std::size_t f) { flattened[f] = is_flattened(std::int32_t(f)); });
   crease_sizes_.resize(facets_.size());
   parallel_for(facets_.size(), [&](std::size_t f) {
     for (int k = 0; k < 3; ++k) {
@@ -214,22 +215,25 @@ void SurfaceModel::set_chain_lengths() {
     }
 }
 
+Vec3 SurfaceModel::at(const Anchor& anchor) const {
+  if (is_curve(anchor)) return curves_[curve_of(anchor.facet)].curve.at(anchor.u);
+  return patches_[anchor.facet].at(anchor.u, anchor.v);
+}
+
 double SurfaceModel::size(const Anchor& anchor) const {
   if (anchor.facet == kNone) return settings_.hmax;
   if (is_curve(anchor)) {
     const CurveEdge& c = curves_[-2 - anchor.facet];
     const double h = (1 - anchor.u) * sizes_[c.v[0]] + anchor.u * sizes_[c.v[1]];
-    const Vec3 place = c.curve.at(anchor.u);
-    return spot_size(place, size_on_curve(-2 - anchor.facet, place, h));
+    return size_on_curve(curve_of(anchor.facet), at(anchor), h);
   }
   const auto& v = facets_[anchor.facet];
   double h = (1 - double(anchor.u) - anchor.v) * sizes_[v[0]] + anchor.u * sizes_[v[1]] +
              anchor.v * sizes_[v[2]];
   if (const std::int32_t corner = corner_vertex(anchor); corner != kNone)
     for_each_curve_at(corner, [&](std::int32_t e) { h = size_on_curve(e, points_[corner], h); });
-  const Vec3 place = patches_[anchor.facet].at(anchor.u, anchor.v);
-  return spot_size(place,
-                   thin_size(anchor.facet, place, size_near_creases(anchor.facet, place, h)));
+  const Vec3 place = at(anchor);
+  return thin_size(anchor.facet, place, size_near_creases(anchor.facet, place, h));
 }
 
 double SurfaceModel::size_on_curve(std::int32_t e, const Vec3& place, double size) const {
@@ -286,28 +290,6 @@ bool SurfaceModel::share_patch(std::int32_t a, std::int32_t b) const {
           facet_patch_[curve_facets_[y.first_facet + j]])
         return true;
   return false;
-}
-
-void SurfaceModel::add_spots(const std::vector<Spot>& spots) {
-  spots_.insert(spots_.end(), spots.begin(), spots.end());
-  std::vector<Box> boxes(spots_.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const double r = spots_[i].radius;
-    boxes[i].add(spots_[i].place + Vec3{r, r, r});
-    boxes[i].add(spots_[i].place - Vec3{r, r, r});
-  }
-  spot_tree_.emplace(boxes);
-}
-
-double SurfaceModel::spot_size(const Vec3& place, double size) const {
-  if (!spot_tree_) return size;
-  Box here;
-  here.add(place);
-  spot_tree_->visit_overlapping(here, [&](std::size_t slot) {
-    const Spot& s = spots_[std::size_t(spot_tree_->order()[slot])];
-    if (distance2(s.place, place) <= s.radius * s.radius) size = std::min(size, s.size);
-  });
-  return size;
 }
 
 }  // namespace cavea

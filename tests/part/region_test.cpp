@@ -30,8 +30,7 @@ TEST(Layers, AreThoseAroundFewTetsAndMany) {
     while (int(some.size()) < count) some.insert(random.below(int(mesh.tets.size())));
     const TetList tets(some.begin(), some.end());
     for (const int layers : {0, 1, 2, 3}) {
-      SCOPED_TRACE(testing::Message()
-                   << layers << " around " << count << " tets, seed " << kSeed);
+      SCOPED_TRACE(testing::Message() << layers << " around " << count << " tets, seed " << kSeed);
       const TetList expected = layers_by_definition(mesh, tets, layers);
       EXPECT_EQ(with_layers(mesh, tets, layers), expected);
       EXPECT_EQ(with_layers_of_few(mesh, tets, layers), expected);

@@ -261,29 +261,6 @@ TEST(SurfaceModel, SizesFollowTheCurvature) {
   }
 }
 
-TEST(SurfaceModel, SpotsBoundTheSizesInsideThem) {
-  auto ball = modelled_ball(6);
-  const Vec3 pole = ball.mesh.points[0];
-  constexpr double kRadius = 0.7, kSize = 0.01;
-  const auto sizes = [&] {
-    std::vector<double> h;
-    for (const Anchor& a : ball.mesh.anchors) h.push_back(ball.model.size(a));
-    return h;
-  };
-  const std::vector<double> before = sizes();
-  ball.model.add_spots({{pole, kRadius, kSize}});
-  const std::vector<double> after = sizes();
-  for (std::size_t v = 0; v < before.size(); ++v) {
-    if (ball.mesh.anchors[v].facet == kNone) continue;
-    const bool inside = distance(ball.mesh.points[v], pole) < kRadius;
-    EXPECT_EQ(after[v], inside ? std::min(before[v], kSize) : before[v]);
-  }
-  // Who asks for a spot bounds its size: a uniform size gives way below its own.
-  constexpr double kTiny = 1e-9;
-  ball.model.add_spots({{pole, kRadius, kTiny}});
-  EXPECT_EQ(ball.model.size(ball.mesh.anchors[0]), kTiny);
-}
-
 /// A box of n x n x 1 cells, `thickness` high.
 MeshData plate(int n, double thickness) {
   MeshData data = kuhn_cube(n);

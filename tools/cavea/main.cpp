@@ -70,8 +70,8 @@ int main(int argc, char** argv) {
   // learns from the first ones to keep what is as large, and half of the memory is then holes.
   constexpr int kLargeBlock = 1 << 18;
   mallopt(M_MMAP_THRESHOLD, kLargeBlock);
-  // The ends of heaps are kept: by default each smaller array that is freed there goes back, too, and
-  // its pages have to be cleared for the next one.
+  // The ends of heaps are kept: by default each smaller array that is freed there goes back, too,
+  // and its pages have to be cleared for the next one.
   constexpr int kKept = 1 << 26;
   mallopt(M_TRIM_THRESHOLD, kKept);
   return guarded([&] { return run(argc, argv); });
