@@ -106,6 +106,7 @@ TEST_F(UsageTest, RefusesOtherSenselessOptions) {
   for (const char* value : {"0", "-2"}) expect_option_refused({"--threads", value}, "threads");
   for (const char* value : {"0", "-5"}) expect_option_refused({"--max-tets", value}, "max_tets");
   expect_option_refused({"--max-memory", "0"}, "max_memory");
+  expect_option_refused({"--tets-per-part", "5"}, "tets_per_part");
   expect_option_refused({"--max-memory", "-5G"}, "--max-memory");
   for (const char* value : {"nan", "1.5", "-0.1"})
     expect_option_refused({"--min-quality", value}, "quality");
