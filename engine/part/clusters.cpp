@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "cavea/base/parallel.h"
