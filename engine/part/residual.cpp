@@ -36,13 +36,18 @@ TetList blocked_tets(const TetMesh& m) {
 class Batches {
  public:
   Batches(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings, int layers,
-          ResidualResult& result)
-      : mesh_(mesh), surface_(surface), settings_(settings), layers_(layers), result_(result) {}
+          ResidualCount& count, VerdictTable& verdicts)
+      : mesh_(mesh),
+        surface_(surface),
+        settings_(settings),
+        layers_(layers),
+        count_(count),
+        verdicts_(verdicts) {}
 
   void run() {
     std::vector<TetList> clusters = clusters_of(mesh_, blocked_tets(mesh_), kCluster);
     const Coloring coloring = color(conflicts_of(regions_around(clusters)));
-    result_.colors = std::max(result_.colors, coloring.count);
+    count_.colors = std::max(count_.colors, coloring.count);
     for (std::int32_t c = 0; c < coloring.count; ++c) {
       std::vector<TetList> batch;
       for (std::size_t k = 0; k < clusters.size(); ++k)
@@ -67,15 +72,16 @@ class Batches {
     std::erase_if(clusters, [](const TetList& cluster) { return cluster.empty(); });
     if (clusters.empty()) return;
     std::vector<std::int32_t> labels(mesh_.tets.size(), kIdle);
-    int count = 0;
-    for (const TetList& region : regions_around(clusters)) count += label(region, count, labels);
-    std::vector<Part> parts = extract_parts(mesh_, labels, count);
+    int regions = 0;
+    for (const TetList& region : regions_around(clusters))
+      regions += label(region, regions, labels);
+    std::vector<Part> parts = extract_parts(mesh_, labels, regions);
     const CycleResult cycle = run_parts(parts, surface_, settings_);
     stitch_parts(mesh_, parts, labels);
-    result_.cycle.verdicts += cycle.verdicts;
-    result_.cycle.changes += cycle.changes;
-    ++result_.batches;
-    result_.regions += count;
+    verdicts_ += cycle.verdicts;
+    count_.changes += cycle.changes;
+    ++count_.batches;
+    count_.regions += regions;
   }
 
   /// Regions may have come to share tets where an earlier batch has changed them: the later one
@@ -90,7 +96,8 @@ class Batches {
   const SurfaceModel& surface_;
   const CycleSettings& settings_;
   int layers_;
-  ResidualResult& result_;
+  ResidualCount& count_;
+  VerdictTable& verdicts_;
 };
 
 /// What is blocked and all around it, as one part, so that batches do not touch the rest.
@@ -108,25 +115,36 @@ std::vector<Part> take_out(const TetMesh& mesh, TetList blocked, int layers) {
 
 std::int64_t count_blocked(const TetMesh& mesh) { return std::int64_t(blocked_tets(mesh).size()); }
 
-ResidualResult run_residual(TetMesh& mesh, const SurfaceModel& surface,
-                            const CycleSettings& settings, std::vector<std::int32_t>& part_of_tet) {
+ResidualCount& ResidualCount::operator+=(const ResidualCount& next) {
+  before += next.before;
+  after = next.after;
+  regions += next.regions;
+  changes += next.changes;
+  colors = std::max(colors, next.colors);
+  batches += next.batches;
+  return *this;
+}
+
+ResidualCount run_residual(TetMesh& mesh, const SurfaceModel& surface,
+                           const CycleSettings& settings, std::vector<std::int32_t>& part_of_tet,
+                           VerdictTable& verdicts) {
   CycleSettings few_sweeps = settings;
   few_sweeps.sweeps = std::min(settings.sweeps, kSweeps);
-  ResidualResult result;
+  ResidualCount count;
   TetList blocked = blocked_tets(mesh);
-  result.before = std::int64_t(blocked.size());
-  for (; !blocked.empty() && result.passes < kPasses; ++result.passes) {
-    const int layers = kLayers + result.passes / 2;
+  count.before = std::int64_t(blocked.size());
+  for (int pass = 0; !blocked.empty() && pass < kPasses; ++pass) {
+    const int layers = kLayers + pass / 2;
     std::vector<Part> part = take_out(mesh, std::move(blocked), layers);
-    Batches(part[0].mesh, surface, few_sweeps, layers, result).run();
+    Batches(part[0].mesh, surface, few_sweeps, layers, count, verdicts).run();
     std::vector<std::int32_t> labels;
     stitch_parts(mesh, part, labels);
     part_of_tet.resize(mesh.tets.size(), kIdle);
     remove_holes(mesh, part_of_tet);
     blocked = blocked_tets(mesh);
   }
-  result.after = std::int64_t(blocked.size());
-  return result;
+  count.after = std::int64_t(blocked.size());
+  return count;
 }
 
 }  // namespace cavea

@@ -7,15 +7,17 @@
 
 namespace cavea {
 
-/// What became of the cavities that the last round's interfaces blocked.
-struct ResidualResult {
-  CycleResult cycle;
-  std::int64_t before = 0;   ///< blocked tets that the rounds left
-  std::int64_t after = 0;    ///< and that are left now
-  int passes = 0;            ///< times that what was blocked then was grouped and coloured
-  int colors = 0;            ///< most of one pass
-  int batches = 0;           ///< run one after the other, over all passes
-  std::int64_t regions = 0;  ///< run as small parts, over all batches
+/// Cavities that the interfaces of the last rounds have blocked, and what was done about them.
+struct ResidualCount {
+  std::int64_t before = 0;   ///< tets that waited, after the phases and after each mending
+  std::int64_t after = 0;    ///< tets that still do at the end
+  std::int64_t regions = 0;  ///< run as small parts
+  std::int64_t changes = 0;  ///< operations accepted in them
+  int colors = 0;            ///< most that a conflict graph of regions took
+  int batches = 0;           ///< of regions free of conflicts, run one after the other
+
+  /// Of a later time.
+  ResidualCount& operator+=(const ResidualCount& next);
 };
 
 /// Tets to which an operator said kFrozen, for the interface of a part, when they were last asked.
@@ -27,8 +29,10 @@ std::int64_t count_blocked(const TetMesh& mesh);
 /// rims of regions, which the next pass asks in larger ones. The result has no holes and does not
 /// depend on the number of threads.
 /// \param part_of_tet by tet, kept in step: what is new has the part of what it replaces
+/// \param verdicts gets those of the operators, too
 /// \pre no holes \throw Cancelled
-ResidualResult run_residual(TetMesh& mesh, const SurfaceModel& surface,
-                            const CycleSettings& settings, std::vector<std::int32_t>& part_of_tet);
+ResidualCount run_residual(TetMesh& mesh, const SurfaceModel& surface,
+                           const CycleSettings& settings, std::vector<std::int32_t>& part_of_tet,
+                           VerdictTable& verdicts);
 
 }  // namespace cavea

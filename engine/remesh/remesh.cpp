@@ -16,7 +16,6 @@
 #include "cavea/mesh/check.h"
 #include "cavea/mesh/compact.h"
 #include "cavea/mesh/copy.h"
-#include "cavea/part/residual.h"
 #include "cavea/part/round.h"
 #include "cavea/remesh/budget.h"
 #include "cavea/remesh/bulk.h"
@@ -360,16 +359,8 @@ class Run {
   void run_residual_of(const Phase& last) {
     CycleSettings settings = last.cycle;
     settings.cancel = options_.cancel;
-    const ResidualResult result =
-        run_residual(mesh_, working_surface(), settings, report_.part_of_tet);
-    verdicts_ += result.cycle.verdicts;
-    ResidualCount& sum = report_.residual;
-    sum.before += result.before;
-    sum.after = result.after;
-    sum.changes += result.cycle.changes;
-    sum.colors = std::max(sum.colors, result.colors);
-    sum.batches += result.batches;
-    sum.regions += result.regions;
+    report_.residual +=
+        run_residual(mesh_, working_surface(), settings, report_.part_of_tet, verdicts_);
   }
 
   void run_phase(const Phase& phase) {

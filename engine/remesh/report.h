@@ -6,6 +6,7 @@
 
 #include "cavea/mesh/statistics.h"
 #include "cavea/part/interface_quality.h"
+#include "cavea/part/residual.h"
 #include "cavea/surface/directions.h"
 
 namespace cavea {
@@ -45,16 +46,6 @@ struct MeshSummary {
   Counts counts;
   QualityStatistics quality;
   LengthStatistics lengths;
-};
-
-/// Cavities that the interfaces of the last rounds have blocked, and what was done about them.
-struct ResidualCount {
-  std::int64_t before = 0;   ///< tets that waited, after the phases and after each mending
-  std::int64_t after = 0;    ///< tets that still do at the end
-  std::int64_t regions = 0;  ///< run as small parts
-  std::int64_t changes = 0;  ///< operations accepted in them
-  int colors = 0;            ///< most that a conflict graph of regions took
-  int batches = 0;           ///< of regions free of conflicts, run one after the other
 };
 
 /// What remesh() did and how good the result is.
