@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "cavea/operator/edge_collapse.h"
+#include "cavea/pass/asked_edges.h"
 #include "cavea/pass/passes.h"
 
 namespace cavea {
@@ -42,16 +43,15 @@ class CollapsePass {
   };
 
   void find_short_edges() {
-    for (std::size_t t = 0; t < m_.tets.size(); ++t) {
-      if (!(m_.tet_flags[t] & tet_flag::kAskLength) || !m_.tet_alive(TetId(t))) continue;
-      for (const auto& e : kEdgeVertices) {
-        const VertexId a = m_.tets[t][e[0]], b = m_.tets[t][e[1]];
-        if (!is_short(a, b)) continue;
-        const auto length = float(s_.context.length(std::min(a, b), std::max(a, b)));
-        for (const VertexId v : {a, b})
-          if (length < shortest_[v].length) shortest_[v] = {length, TetId(t)};
-      }
-    }
+    const double limit = s_.context.limits.short_edge;
+    for_each_asked_edge(
+        m_, [&](LengthBlock & block) -> auto& { return block.perhaps_below(limit); },
+        [&](TetId t, VertexId a, VertexId b) {
+          if (!is_short(a, b)) return;
+          const auto length = float(s_.context.length(std::min(a, b), std::max(a, b)));
+          for (const VertexId v : {a, b})
+            if (length < shortest_[v].length) shortest_[v] = {length, t};
+        });
   }
 
   /// Those with the shortest edges first.

@@ -2,6 +2,7 @@
 #include <tuple>
 
 #include "cavea/operator/edge_split.h"
+#include "cavea/pass/asked_edges.h"
 #include "cavea/pass/passes.h"
 
 namespace cavea {
@@ -21,15 +22,6 @@ void sort_tasks(std::vector<EdgeTask>& tasks) {
     if (x.urgency != y.urgency) return x.urgency > y.urgency;
     return std::tie(x.a, x.b, x.tet) < std::tie(y.a, y.b, y.tet);
   });
-}
-
-/// Calls f(tet, local i, local j, a, b) for the edges of tets that carry the flag.
-template <class F>
-void for_each_asked_edge(const TetMesh& m, F&& f) {
-  for (std::size_t t = 0; t < m.tets.size(); ++t) {
-    if (!(m.tet_flags[t] & tet_flag::kAskLength) || !m.tet_alive(TetId(t))) continue;
-    for (const auto& e : kEdgeVertices) f(TetId(t), e[0], e[1]);
-  }
 }
 
 /// Shorter edges are not split for the fit: the sizes follow the curvature, so what still does not
@@ -68,15 +60,19 @@ void add_misfits(const PartState& s, TetId tet, std::vector<EdgeTask>& tasks) {
 
 std::vector<EdgeTask> split_tasks(const PartState& s) {
   const TetMesh& m = s.context.mesh;
-  const Limits& limits = s.context.limits;
+  const double limit = s.context.limits.long_edge;
   std::vector<EdgeTask> tasks;
-  for_each_asked_edge(m, [&](TetId t, int i, int j) {
-    const VertexId a = std::min(m.tets[t][i], m.tets[t][j]),
-                   b = std::max(m.tets[t][i], m.tets[t][j]);
-    if (s.context.length_exceeds(a, b, limits.long_edge))
-      tasks.push_back({float(s.context.length(a, b)), a, b, t});
-    if (i == 0 && j == 1 && s.settings.shortest_fitted > 0) add_misfits(s, t, tasks);
-  });
+  for_each_asked_edge(
+      m, [&](LengthBlock & block) -> auto& { return block.perhaps_above(limit); },
+      [&](TetId t, VertexId i, VertexId j) {
+        const VertexId a = std::min(i, j), b = std::max(i, j);
+        if (s.context.length_exceeds(a, b, limit))
+          tasks.push_back({float(s.context.length(a, b)), a, b, t});
+      });
+  if (s.settings.shortest_fitted > 0)
+    for (std::size_t t = 0; t < m.tets.size(); ++t)
+      if ((m.tet_flags[t] & tet_flag::kAskLength) && m.tet_alive(TetId(t)))
+        add_misfits(s, TetId(t), tasks);
   sort_tasks(tasks);
   return tasks;
 }
