@@ -8,6 +8,9 @@ namespace {
 /// A collapse that raises the worst quality may make edges this many times too long: a later split
 /// mends them.
 constexpr double kRelaxedLong = 1.4;
+/// Where the worst quality is below this, lengths come second: a vertex between two walls that
+/// nearly touch can only vanish along edges that are long.
+constexpr double kNeedle = 0.1, kNeedleLong = 3;
 
 /// Other collapses may make edges this many times too long, which the next sweep splits or
 /// relocation shortens: without, two of three edges that stay too short are stuck.
@@ -156,14 +159,18 @@ Verdict check_curve(const OperatorContext& c, const std::vector<TriangleId>& fan
   return Verdict::kAccept;
 }
 
+double worst_of_ball(const OperatorContext& c) {
+  double worst = 1;
+  for (TetId t : c.ball.tets) worst = std::min(worst, double(c.mesh.qualities[t]));
+  return worst;
+}
+
 /// The ball's tets with q in place of p.
 Verdict make_tets(OperatorContext& c, bool quality_gain, Cavity& cavity) {
   const Shell& s = c.shell;
-  double before = 1;
-  for (TetId t : c.ball.tets) {
-    before = std::min(before, double(c.mesh.qualities[t]));
+  for (TetId t : c.ball.tets)
     if (c.mesh.tet_flags[t] & tet_flag::kRequired) return Verdict::kBreaksFeature;
-  }
+  const double before = worst_of_ball(c);
   const double lowest =
       std::max(kFlat, quality_gain ? before * kQualityGain : c.lowest_allowed(before));
   for (TetId t : c.ball.tets) {
@@ -180,6 +187,12 @@ Verdict make_tets(OperatorContext& c, bool quality_gain, Cavity& cavity) {
     cavity.tets.push_back({v, c.mesh.tet_refs[t], float(quality)});
   }
   return cavity.tets.empty() ? Verdict::kBreaksTopology : Verdict::kAccept;
+}
+
+/// How many times too long edges may become.
+double tolerated_length(const OperatorContext& c, bool quality_gain) {
+  if (!quality_gain) return kToleratedLong;
+  return worst_of_ball(c) < kNeedle ? kNeedleLong : kRelaxedLong;
 }
 
 bool makes_long_edge(const OperatorContext& c, double longest) {
@@ -202,7 +215,7 @@ Verdict edge_collapse_of_ball(OperatorContext& c, bool quality_gain, Cavity& cav
   const Shell& s = c.shell;
   if (const Verdict v = may_merge(c); v != Verdict::kAccept) return v;
   if (c.ball.cut) return Verdict::kFrozen;
-  if (makes_long_edge(c, (quality_gain ? kRelaxedLong : kToleratedLong) * c.limits.long_edge))
+  if (makes_long_edge(c, tolerated_length(c, quality_gain) * c.limits.long_edge))
     return Verdict::kBadLength;
   if (const Verdict v = make_tets(c, quality_gain, cavity); v != Verdict::kAccept) return v;
   if (c.tags(s.p) & tag::kSurface) {
