@@ -17,8 +17,6 @@
 namespace cavea {
 namespace {
 
-/// Below this a mesh is one part: the interfaces would be most of it.
-constexpr std::int64_t kOnePart = 12000;
 /// A part's working set at this size is about that of a core's L2 cache.
 constexpr std::int64_t kTetsPerPart = 64000;
 /// Parts enough to keep many cores busy with meshes that are not small.
@@ -90,16 +88,18 @@ RoundResult run_whole(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
 
 }  // namespace
 
-int part_count(std::int64_t tets, std::int64_t tets_per_part) {
-  if (tets_per_part > 0) return int((tets + tets_per_part - 1) / tets_per_part);
-  if (tets < kOnePart) return 1;
+int part_count(std::int64_t tets, const PartSize& size) {
+  if (size.tets_per_part > 0) return int((tets + size.tets_per_part - 1) / size.tets_per_part);
+  if (tets < size.one_part) return 1;
   const std::int64_t by_size = (tets + kTetsPerPart - 1) / kTetsPerPart;
   if (tets > kManyPartsAbove) return int(std::max<std::int64_t>(by_size, kManyParts));
-  return int(std::max<std::int64_t>(2, tets * kManyParts / kManyPartsAbove));
+  // Even, since few parts of one size leave threads without work.
+  const std::int64_t pairs = (tets * kManyParts / kManyPartsAbove + 1) / 2;
+  return int(2 * std::max<std::int64_t>(1, pairs));
 }
 
 RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings,
-                      std::vector<std::int32_t>* part_of_tet, std::int64_t tets_per_part) {
+                      std::vector<std::int32_t>* part_of_tet, const PartSize& size) {
   // Memory that is not to be held beside the parts is given back; an empty list would keep it.
   if (part_of_tet) *part_of_tet = std::vector<std::int32_t>();
   std::vector<TetId> active = active_tets(mesh, settings);
@@ -107,7 +107,7 @@ RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
     if (part_of_tet) part_of_tet->assign(mesh.tets.size(), kIdle);
     return {{}, 0};
   }
-  const int count = part_count(std::int64_t(active.size()), tets_per_part);
+  const int count = part_count(std::int64_t(active.size()), size);
   if (count == 1 && 2 * active.size() > mesh.tets.size()) {
     const RoundResult result = run_whole(mesh, surface, settings);
     if (part_of_tet) part_of_tet->assign(mesh.tets.size(), 0);

@@ -4,9 +4,16 @@
 
 namespace cavea {
 
+/// How large parts are.
+struct PartSize {
+  std::int64_t tets_per_part = 0;  ///< what a part is to have; 0: what suits the mesh
+  /// A mesh of fewer tets is one part: the interfaces would be most of it. Not asked where the
+  /// tets of a part are given.
+  std::int64_t one_part = 12000;
+};
+
 /// Number of parts for a mesh: a function of its size alone, never of the threads.
-/// \param tets_per_part if not 0, what a part is to have
-int part_count(std::int64_t tets, std::int64_t tets_per_part = 0);
+int part_count(std::int64_t tets, const PartSize& size = {});
 
 struct RoundResult {
   CycleResult cycle;
@@ -18,9 +25,8 @@ struct RoundResult {
 /// that were interface in the round before are spared by the cut, so that what was frozen moves
 /// into the interior. `settings.most_tets` is per part. The result has no holes and does not depend
 /// on the number of threads. \param part_of_tet if not null, the part that each tet of the result
-/// came from, kIdle for those of none. \param tets_per_part as of part_count() \throw Cancelled
+/// came from, kIdle for those of none. \throw Cancelled
 RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings,
-                      std::vector<std::int32_t>* part_of_tet = nullptr,
-                      std::int64_t tets_per_part = 0);
+                      std::vector<std::int32_t>* part_of_tet = nullptr, const PartSize& size = {});
 
 }  // namespace cavea

@@ -15,6 +15,9 @@ constexpr double kFittedEdge = 1.5;
 /// The paper's rough bounds of lengths (section 4.3, step 4).
 constexpr double kRoughLong = 2.0, kRoughShort = 0.4;
 
+/// Each level makes twice the tets, of which few are at the interface: parts pay early.
+constexpr std::int64_t kOneSurfacePart = 2000;
+
 /// Each level halves the longest edges of the surface; as many as in bulk.
 constexpr int kMostSurfaceLevels = 16;
 
@@ -77,6 +80,7 @@ Phase surfacing(const ResolvedOptions& o) {
   Phase p = rough(o);
   p.name = "surface";
   p.rounds = kMostSurfaceLevels;
+  p.one_part = kOneSurfacePart;
   p.settled = 0.02;
   p.cycle.sweeps = 1;
   p.cycle.delaunay_splits = true;

@@ -366,6 +366,8 @@ class Run {
   void run_phase(const Phase& phase) {
     CycleSettings settings = phase.cycle;
     settings.cancel = options_.cancel;
+    PartSize size{options_.tets_per_part};
+    if (phase.one_part > 0) size.one_part = phase.one_part;
     for (std::uint8_t& flags : mesh_.tet_flags) flags |= phase.ask;
     for (int round = 1; round <= phase.rounds || more_for_budget(phase, round); ++round) {
       tell(phase.name, round);
@@ -373,12 +375,11 @@ class Run {
       if (phase.resize && round > 1 && sizes_vary_) resize(), ask_lengths(mesh_);
       if (report_.part_of_tet.size() == mesh_.tets.size() && is_nothing_asked(mesh_)) break;
       if (phase.growth > 0)
-        settings.most_tets =
-            std::int64_t(phase.growth * double(mesh_.tets.size()) /
-                         part_count(std::int64_t(mesh_.tets.size()), options_.tets_per_part)) +
-            10000;
-      const RoundResult result = run_round(mesh_, working_surface(), settings, &report_.part_of_tet,
-                                           options_.tets_per_part);
+        settings.most_tets = std::int64_t(phase.growth * double(mesh_.tets.size()) /
+                                          part_count(std::int64_t(mesh_.tets.size()), size)) +
+                             10000;
+      const RoundResult result =
+          run_round(mesh_, working_surface(), settings, &report_.part_of_tet, size);
       report_.parts = std::max(report_.parts, result.parts);
       verdicts_ += result.cycle.verdicts;
       if (phase.budget_rounds > 0) budget_.learn(mesh_);
