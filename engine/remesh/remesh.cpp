@@ -52,6 +52,10 @@ constexpr double kOfNeedles = 0.1;
 /// A budget of tets is met when it is exceeded by no more than this share.
 constexpr double kBudgetMargin = 0.1;
 
+/// Sizes that are tried where the body has no room for those wanted, as shares of them; the last
+/// makes about eight times the tets.
+constexpr double kFinerSizes[] = {0.8, 0.64, kFinestRoom};
+
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 /// Worse tets are named in the report: where the domain allows, operators end above.
@@ -306,7 +310,7 @@ class Run {
 
   bool is_near() const {
     constexpr double kLeastFiner = 0.8;  // what is finer yet asks for the next scale
-    return finer_ >= kLeastFiner && is_nearly_result(report_.before, options_.min_conform);
+    return finer_ >= kLeastFiner && is_nearly_result(report_.before, options_);
   }
 
   /// Phases end when little of the whole changes: what is poor then may be little of it, and is
@@ -561,16 +565,16 @@ struct Result {
 
 /// A run, and where the input turns out to be as good as its result another one that only mends it,
 /// or leaves it if that does not help.
-Result run_once(const TetMesh& input, const SizeField& field, const Options& options,
-                double finer) {
+Result run_once(const TetMesh& input, const SizeField& field, const Options& options, double finer,
+                Effort effort = Effort::kWhereNeeded) {
   std::optional<Run> run;
   std::vector<PhaseTime> in_vain;
-  auto run_with = [&](Effort effort) {
+  auto run_with = [&](Effort e) {
     if (run) std::ranges::move(run->report_.phases, std::back_inserter(in_vain));
-    run.emplace(input, field, options, effort, finer);
+    run.emplace(input, field, options, e, finer);
     (*run)();
   };
-  run_with(Effort::kWhereNeeded);
+  run_with(effort);
   if (run->in_vain()) run_with(Effort::kMend);
   if (run->mended_in_vain()) run_with(Effort::kLeave);
   Result result{std::move(run->mesh_), std::move(run->report_)};
@@ -581,31 +585,36 @@ Result run_once(const TetMesh& input, const SizeField& field, const Options& opt
 /// Where elements have no room, smaller ones, if that helps: those that the input has already, or
 /// else the largest ones.
 Result run_with_room(const TetMesh& input, const SizeField& field, const Options& options) {
+  Result best = run_once(input, field, options, 1);
   const auto room = [&](const Result& result) {
     return room_in(result.report.after, options, bool(field));
   };
-  Result first = run_once(input, field, options, 1);
-  if (room(first) == Room::kEnough) return first;
-  std::vector<double> to_try = {0.8, 0.64, 0.512};  // the last makes about eight times the tets
-  // A little room is found by one run and missed by the next: what the input has decides, but where
-  // it is much finer, the caller wants other sizes.
-  const bool little = room(first) == Room::kLittle;
-  if (little) to_try.resize(1);
-  const auto rest = std::ranges::stable_partition(to_try, [&](double finer) {
-    return has_the_quality_of_results(first.report.before.quality, false) &&
-           Run(input, field, options, Effort::kWhereNeeded, finer).stands();
-  });
-  if (little) to_try.erase(rest.begin(), rest.end());
-  std::vector<PhaseTime> tried;
-  for (const double finer : to_try) {
-    Result result = run_once(input, field, options, finer);
-    const bool helps = room(result) != Room::kMissing;
-    if (helps) std::swap(first, result);
-    tried.insert(tried.end(), result.report.phases.begin(), result.report.phases.end());
-    if (helps) break;
+  // \return whether it helps
+  const auto try_run = [&](double finer, Effort effort) {
+    Result result = run_once(input, field, options, finer, effort);
+    // What only mends may leave tets as they are that a run would have made better.
+    const bool as_good =
+        effort != Effort::kMend || !worst_has_risen(result.report.after, best.report.after);
+    const bool helps = room(result) != Room::kMissing && as_good;
+    if (helps) std::swap(best, result);
+    best.add_before(result.report.phases);
+    return helps;
+  };
+  switch (room(best)) {
+    case Room::kEnough:
+      break;
+    case Room::kLittle:
+      // A little room is found by one run and missed by the next: what the input has decides, but
+      // where it is much finer, the caller wants other sizes.
+      if (Run(input, field, options, Effort::kWhereNeeded, kFinerSizes[0]).stands())
+        try_run(kFinerSizes[0], Effort::kWhereNeeded);
+      break;
+    case Room::kMissing:
+      if (may_have_made_room(best.report.before, options) && try_run(1, Effort::kMend)) break;
+      for (const double finer : kFinerSizes)
+        if (try_run(finer, Effort::kWhereNeeded)) break;
   }
-  first.add_before(tried);
-  return first;
+  return best;
 }
 
 }  // namespace

@@ -15,6 +15,9 @@ bool has_the_quality_of_results(const QualityStatistics& now, bool uniform);
 /// The same, and `conform` percent of the lengths conform.
 bool is_as_good_as_results(const MeshSummary& now, bool uniform, double conform);
 
+/// Whether the worst quality was poor and is better by more than chance would make it.
+bool worst_has_risen(const MeshSummary& before, const MeshSummary& after);
+
 /// Whether quality and lengths have not become better by more than chance would make them, nor met
 /// a target of the options that they missed.
 bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const Options& options);
@@ -23,11 +26,18 @@ bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const O
 bool sizes_are_given(const Options& options, bool has_field);
 
 /// Whether the mesh may be a result whose surface asks for other sizes: of the quality of results
-/// where sizes vary, and not too coarse but for as many edges as need not conform.
-bool is_nearly_result(const MeshSummary& now, double conform);
+/// where sizes vary, and neither too fine nor too coarse as a whole.
+bool is_nearly_result(const MeshSummary& now, const Options& options);
+
+/// Whether the mesh may be one for which a run has made its sizes finer, since the body has no room
+/// for those wanted.
+bool may_have_made_room(const MeshSummary& now, const Options& options);
 
 /// The sizes that a mesh has: at least 0.3 of those wanted, and at most 1.25 of `largest`.
 std::vector<float> own_sizes_within(const TetMesh& mesh, double largest);
+
+/// Where a body has no room, sizes of this share of those wanted are the finest that are tried.
+inline constexpr double kFinestRoom = 0.512;
 
 /// How much room the shape leaves for elements of the sizes asked for: in strips one of them wide
 /// all are of a poor quality, or few have the lengths wanted.
