@@ -214,13 +214,57 @@ bool is_corner(const TetMesh& m, VertexId v, const FeatureStar& star, const Shar
   return sharpness.folds(cosine, length / 2);
 }
 
-void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars, const Sharpness& sharpness) {
+/// Finds tips: vertices with no feature edge whose triangles leave little of the full angle, like
+/// the apex of a cone. Nothing would hold a vertex there, so that tips were cut off.
+class Tips {
+ public:
+  Tips(const TetMesh& m, double least_height)
+      : m_(m), least_height_(least_height), fans_(m.points.size()) {
+    for (const Triangle& t : m.triangles)
+      if (t.alive())
+        for (int k = 0; k < 3; ++k) add(t.v[k], t.v[(k + 1) % 3], t.v[(k + 2) % 3]);
+  }
+
+  bool has(VertexId v) const {
+    // What a cone of half a right angle leaves is 254 degrees; the corner of an octahedron, which
+    // may stand for a sphere, has 240, but its edges are ridges.
+    constexpr double kMostAngle = 235 * std::numbers::pi / 180;
+    const Fan& fan = fans_[v];
+    return fan.triangles > 0 && fan.angle < kMostAngle &&
+           distance(m_.points[v], fan.ring / (2 * fan.triangles)) > least_height_;
+  }
+
+ private:
+  struct Fan {
+    double angle = 0;
+    Vec3 ring;  ///< sum of the other vertices, each of two triangles
+    int triangles = 0;
+  };
+
+  void add(VertexId v, VertexId a, VertexId b) {
+    const Vec3 x = m_.points[a] - m_.points[v], y = m_.points[b] - m_.points[v];
+    Fan& fan = fans_[v];
+    fan.angle += std::atan2(norm(cross(x, y)), dot(x, y));
+    fan.ring = fan.ring + m_.points[a] + m_.points[b];
+    ++fan.triangles;
+  }
+
+  const TetMesh& m_;
+  double least_height_;
+  std::vector<Fan> fans_;
+};
+
+void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars,
+                  const FeatureOptions& options) {
+  const Sharpness sharpness(options);
+  const Tips tips(m, options.sliver);
   for (std::size_t v = 0; v < stars.size(); ++v) {
     const FeatureStar& star = stars[v];
     if (star.fans == 0) continue;
     m.vertex_tags[v] |= Tag(tag::kSurface | (star.all_kinds & (kOnCurve | tag::kPinched)));
     if (star.fans > 1) m.vertex_tags[v] |= tag::kPinched;
-    if (is_corner(m, VertexId(v), star, sharpness)) m.vertex_tags[v] |= tag::kCorner;
+    const bool is_tip = star.degree == 0 && sharpness.detect && tips.has(VertexId(v));
+    if (is_tip || is_corner(m, VertexId(v), star, sharpness)) m.vertex_tags[v] |= tag::kCorner;
   }
 }
 
@@ -247,7 +291,7 @@ int number_patches(TetMesh& m, const std::vector<EdgeSide>& sides) {
 int classify_features(TetMesh& mesh, const FeatureOptions& options) {
   const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles);
   tag_edges(mesh, sides, options);
-  tag_vertices(mesh, gather_stars(mesh, sides), Sharpness(options));
+  tag_vertices(mesh, gather_stars(mesh, sides), options);
   return number_patches(mesh, sides);
 }
 

@@ -24,9 +24,9 @@ struct FeatureOptions {
 
 /// Classifies the surface of a mesh (paper, section 3.1): tags ridges by angle, corners (ends of
 /// one or of three and more feature edges, sharp turns of a feature curve, meetings of curves of
-/// different kinds, pinched vertices), feature vertices; numbers the smooth patches
-/// (Triangle::patch): pieces connected through edges that are no features. \return the number of
-/// patches.
+/// different kinds, tips like that of a sharp cone, pinched vertices), feature vertices; numbers
+/// the smooth patches (Triangle::patch): pieces connected through edges that are no features.
+/// \return the number of patches.
 int classify_features(TetMesh& mesh, const FeatureOptions& options);
 
 }  // namespace cavea

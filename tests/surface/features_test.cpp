@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "cavea/surface/edges.h"
@@ -213,6 +215,32 @@ TEST(ClassifyFeatures, APinchedVertexIsACorner) {
   const std::set<VertexId> corners = vertices_with(mesh, tag::kCorner);
   ASSERT_EQ(corners.size(), 1u);
   EXPECT_LT(distance(mesh.points[*corners.begin()], {0.5, 0.5, 0.5}), 1e-12);
+}
+
+/// Two cones of 16 sides and of a height over a common circle of radius 1; the tips come first.
+TetMesh double_cone(double height) {
+  constexpr int kSides = 16;
+  MeshData data;
+  data.vertices = {{0, 0, height}, {0, 0, -height}};
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kSides;
+    data.vertices.push_back({std::cos(angle), std::sin(angle), 0});
+    data.tets.push_back({0, 1, 2 + (i + 1) % kSides, 2 + i});
+    data.tet_refs.push_back(0);
+  }
+  return build(data).mesh;
+}
+
+TEST(ClassifyFeatures, TheTipOfASharpConeIsACorner) {
+  TetMesh sharp = double_cone(1.2), blunt = double_cone(0.8), low = double_cone(1.2);
+  FeatureOptions options;
+  classify_features(sharp, options);
+  EXPECT_EQ(vertices_with(sharp, tag::kCorner), (std::set<VertexId>{0, 1}));
+  classify_features(blunt, options);
+  EXPECT_TRUE(vertices_with(blunt, tag::kCorner).empty());
+  options.sliver = 1.3;  // tips of less height are noise
+  classify_features(low, options);
+  EXPECT_TRUE(vertices_with(low, tag::kCorner).empty());
 }
 
 TEST(ClassifyFeatures, ABallHasNone) {
