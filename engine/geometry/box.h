@@ -39,6 +39,11 @@ struct Box {
                  z = apart(low.z, high.z, b.low.z, b.high.z);
     return x * x + y * y + z * z;
   }
+  /// What two boxes have in common.
+  Box common(const Box& b) const {
+    return {{std::max(low.x, b.low.x), std::max(low.y, b.low.y), std::max(low.z, b.low.z)},
+            {std::min(high.x, b.high.x), std::min(high.y, b.high.y), std::min(high.z, b.high.z)}};
+  }
   /// The box with room around it.
   Box widened(double by) const { return {low - Vec3{by, by, by}, high + Vec3{by, by, by}}; }
   bool overlaps(const Box& b) const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "cavea/geometry/box.h"
 #include "cavea/geometry/vec3.h"
 
 namespace cavea {
@@ -18,21 +19,26 @@ struct Lattice {
 
   double cell_at(int level) const { return std::ldexp(cell, level); }
 
-  /// Calls f(point) for the points of a level inside a tet of positive volume; but for the
-  /// `coarsest`, without those of the next coarser level.
+  /// About how many points of a level there are in a box.
+  double count_in(const Box& box, int level) const {
+    const Vec3 size = (box.high - box.low) / cell_at(level) + Vec3{1, 1, 1};
+    return 2 * size.x * size.y * size.z;
+  }
+  /// Calls f(point) for the points of a level inside a tet of positive volume and in a box, in a
+  /// time that goes with the box; but for the `coarsest`, without those of the next coarser level.
   template <class F>
-  void for_each_inside(const std::array<Vec3, 4>& tet, int level, int coarsest, F&& f) const;
+  void for_each_inside(const std::array<Vec3, 4>& tet, const Box& box, int level, int coarsest,
+                       F&& f) const;
 };
 
 namespace lattice_detail {
 
-/// The multiples of `unit` between the smallest and largest of four coordinates, and a little
-/// beyond: a quotient that is whole may be rounded to either side.
-inline std::pair<std::int64_t, std::int64_t> multiples(double a, double b, double c, double d,
-                                                       double unit) {
+/// The multiples of `unit` from low to high, and a little beyond: a quotient that is whole may be
+/// rounded to either side.
+inline std::pair<std::int64_t, std::int64_t> multiples(double low, double high, double unit) {
   constexpr double kBeyond = 1e-6;
-  return {std::int64_t(std::ceil(std::min({a, b, c, d}) / unit - kBeyond)),
-          std::int64_t(std::floor(std::max({a, b, c, d}) / unit + kBeyond))};
+  return {std::int64_t(std::ceil(low / unit - kBeyond)),
+          std::int64_t(std::floor(high / unit + kBeyond))};
 }
 
 /// The half spaces of a tet's faces: n . p <= d inside.
@@ -57,15 +63,14 @@ struct HalfSpaces {
 }  // namespace lattice_detail
 
 template <class F>
-void Lattice::for_each_inside(const std::array<Vec3, 4>& tet, int level, int coarsest,
-                              F&& f) const {
+void Lattice::for_each_inside(const std::array<Vec3, 4>& tet, const Box& box, int level,
+                              int coarsest, F&& f) const {
   // In units of half a cell a point has three even or three odd coordinates; it is one of the
   // coarser level if these are even and alike modulo 4.
   const double unit = cell_at(level) / 2;
-  const auto& [a, b, c, d] = tet;
-  const auto [x0, x1] = lattice_detail::multiples(a.x, b.x, c.x, d.x, unit);
-  const auto [y0, y1] = lattice_detail::multiples(a.y, b.y, c.y, d.y, unit);
-  const auto [z0, z1] = lattice_detail::multiples(a.z, b.z, c.z, d.z, unit);
+  const auto [x0, x1] = lattice_detail::multiples(box.low.x, box.high.x, unit);
+  const auto [y0, y1] = lattice_detail::multiples(box.low.y, box.high.y, unit);
+  const auto [z0, z1] = lattice_detail::multiples(box.low.z, box.high.z, unit);
   if (x0 > x1 || y0 > y1 || z0 > z1) return;
   const lattice_detail::HalfSpaces inside(tet);
   // Points on common faces and edges, of which a lattice has many, are to be in one tet only.

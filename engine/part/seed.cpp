@@ -1,10 +1,12 @@
 #include "cavea/part/seed.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
 
+#include "cavea/base/error.h"
 #include "cavea/base/parallel.h"
 #include "cavea/cavity/mesh_editor.h"
 #include "cavea/operator/vertex_insert.h"
@@ -15,11 +17,17 @@ namespace {
 /// Points are wanted where their lattice's cells are at least this many wanted sizes.
 constexpr double kFinestCell = 0.75;
 
+/// In boxes with fewer points all are looked at.
+constexpr double kFewPoints = 4096;
+
 /// Edge of a block and what it may reach beyond, in cells. Blocks of one colour are a block apart,
 /// so that reaches are disjoint; a cavity between points of the coarser level reaches 2.3 cells.
 constexpr double kBlock = 8;
 constexpr double kReach = 3.9;
 constexpr int kColors = 8;
+
+/// A block may hold many seeds where all are inserted by one thread: a few milliseconds' work.
+constexpr std::size_t kSeedsBetweenChecks = 256;
 
 /// Tets that an insertion adds are 7 on the average in a lattice.
 constexpr std::int32_t kTetsPerVertex = 8, kSpareTets = 64;
@@ -44,7 +52,11 @@ struct Block {
 class SeedLevel {
  public:
   SeedLevel(TetMesh& mesh, const SeedOptions& options, int level, int coarsest)
-      : mesh_(mesh), options_(options), level_(level), coarsest_(coarsest) {}
+      : mesh_(mesh),
+        options_(options),
+        level_(level),
+        coarsest_(coarsest),
+        cell_(options.lattice.cell_at(level)) {}
 
   VerdictTable run() {
     find_seeds();
@@ -70,29 +82,62 @@ class SeedLevel {
   void find_seeds_in(TetId t, std::vector<Seed>& out) const {
     if (!mesh_.tet_alive(t)) return;
     const auto& k = mesh_.tets[t];
-    const double cell = options_.lattice.cell_at(level_);
     float smallest = mesh_.sizes[k[0]];
     for (VertexId v : k) smallest = std::min(smallest, mesh_.sizes[v]);
-    if (cell < kFinestCell * smallest) return;
-    options_.lattice.for_each_inside(mesh_.corners(t), level_, coarsest_, [&](const Vec3& p) {
-      double size = std::numeric_limits<double>::infinity(), nearest2 = size;
-      VertexId near = kNone;
-      for (VertexId v : k) {
-        const double d2 = distance2(mesh_.points[v], p);
-        if (d2 < nearest2) nearest2 = d2, near = v;
-        size = std::min(size, mesh_.sizes[v] + options_.growth * std::sqrt(d2));
-      }
-      if (options_.size) size = options_.size(p, size);
-      const double least = VertexInsert::kNearest * size;
-      if (cell < kFinestCell * size || nearest2 < least * least) return;
-      out.push_back({p, float(size), near});
-    });
+    if (cell_ < kFinestCell * smallest) return;
+    check_cancelled();
+    const std::array<Vec3, 4> tet = mesh_.corners(t);
+    Box box;
+    for (const Vec3& p : tet) box.add(p);
+    const auto offer = [&](const Vec3& p) { add_if_wanted(k, p, out); };
+    const bool all = options_.size || cell_ >= kFinestCell * options_.largest;
+    if (all || options_.lattice.count_in(box, level_) < kFewPoints)
+      options_.lattice.for_each_inside(tet, box, level_, coarsest_, offer);
+    else
+      for_each_near_vertices(k, tet, box, offer);
+  }
+
+  /// Those points where the vertices ask for cells so small: in tets that are long beside them,
+  /// few.
+  template <class F>
+  void for_each_near_vertices(const std::array<VertexId, 4>& k, const std::array<Vec3, 4>& tet,
+                              const Box& box, F&& f) const {
+    std::array<Box, 4> near;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double reach = (cell_ / kFinestCell - mesh_.sizes[k[i]]) / options_.growth;
+      if (!(reach >= 0)) continue;
+      near[i] = box.common(Box{tet[i], tet[i]}.widened(reach));
+      options_.lattice.for_each_inside(tet, near[i], level_, coarsest_, [&](const Vec3& p) {
+        const bool again = std::any_of(near.begin(), near.begin() + std::ptrdiff_t(i),
+                                       [&](const Box& b) { return b.contains(p); });
+        if (!again) f(p);
+      });
+    }
+  }
+
+  void add_if_wanted(const std::array<VertexId, 4>& k, const Vec3& p,
+                     std::vector<Seed>& out) const {
+    double size = options_.largest, nearest2 = std::numeric_limits<double>::infinity();
+    VertexId near = kNone;
+    for (VertexId v : k) {
+      const double d2 = distance2(mesh_.points[v], p);
+      if (d2 < nearest2) nearest2 = d2, near = v;
+      size = std::min(size, mesh_.sizes[v] + options_.growth * std::sqrt(d2));
+    }
+    if (options_.size) size = options_.size(p, size);
+    const double least = VertexInsert::kNearest * size;
+    if (cell_ < kFinestCell * size || nearest2 < least * least) return;
+    out.push_back({p, float(size), near});
+  }
+
+  void check_cancelled() const {
+    if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) throw Cancelled();
   }
 
   /// Sorts the seeds into blocks and inserts those of each colour at the same time; what a block's
   /// reach forbids is left.
   void insert_in_blocks(double shift) {
-    const double edge = kBlock * options_.lattice.cell_at(level_);
+    const double edge = kBlock * cell_;
     struct Key {
       std::int32_t color, x, y, z;
       std::uint32_t seed;
@@ -119,7 +164,7 @@ class SeedLevel {
       if (i == 0 || keys[i].block() != keys[i - 1].block()) {
         const Vec3 low = edge * (Vec3{double(keys[i].x), double(keys[i].y), double(keys[i].z)} -
                                  Vec3{shift, shift, shift});
-        const double r = kReach * options_.lattice.cell_at(level_);
+        const double r = kReach * cell_;
         const Vec3 out{r, r, r}, size{edge, edge, edge};
         blocks.push_back({i, i, Box{low - out, low + size + out}, {}, {}, {}});
         ++first[std::size_t(keys[i].color) + 1];
@@ -168,6 +213,7 @@ class SeedLevel {
     Cavity cavity;
     for (std::size_t i = b.begin; i < b.end; ++i) {
       const Seed& s = seeds_[i];
+      if ((i - b.begin) % kSeedsBetweenChecks == 0) check_cancelled();
       const TetId around = insert.locate(s.near, s.point);
       NewVertex vertex;
       vertex.point = s.point, vertex.size = s.size;
@@ -191,6 +237,7 @@ class SeedLevel {
   TetMesh& mesh_;
   const SeedOptions& options_;
   const int level_, coarsest_;
+  const double cell_;  ///< of the level
   std::vector<Seed> seeds_;
   VerdictTable verdicts_;
 };

@@ -1,5 +1,7 @@
 #pragma once
+#include <atomic>
 #include <functional>
+#include <limits>
 
 #include "cavea/cavity/verdict.h"
 #include "cavea/geometry/lattice.h"
@@ -13,13 +15,16 @@ using SeedSize = std::function<double(const Vec3& point, double bound)>;
 struct SeedOptions {
   Lattice lattice;
   double growth = 0;  ///< of the wanted size with the distance: log(hgrad)
-  SeedSize size;      ///< called from many threads; empty: the bound
+  double largest = std::numeric_limits<double>::infinity();  ///< bounds all wanted sizes
+  /// Called from many threads; empty: the bound itself, which only rises away from the vertices.
+  SeedSize size;
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 /// Inserts the points of one level of a body-centred cubic lattice inside the volume where the
 /// wanted size asks for them, and nothing is near. Parallel: blocks of space that are apart are
 /// worked on at the same time. Leaves holes of ids.
-/// \return verdicts of the insertions
+/// \return verdicts of the insertions \throw Cancelled
 VerdictTable seed_level(TetMesh& mesh, const SeedOptions& options, int level, int coarsest);
 
 }  // namespace cavea

@@ -234,7 +234,7 @@ class Run {
   }
 
   std::int64_t seed() {
-    const std::int64_t seeds = seed_interior(mesh_, law(), verdicts_);
+    const std::int64_t seeds = seed_interior(mesh_, law(), options_.cancel, verdicts_);
     if (sizes_vary_ && seeds > 0) resize();
     ask_all(mesh_);
     trust_good_tets(mesh_);

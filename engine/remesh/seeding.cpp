@@ -34,10 +34,13 @@ bool conforms(const TetMesh& m, TetId t) {
 
 }  // namespace
 
-std::int64_t seed_interior(TetMesh& mesh, const SizeLaw& law, VerdictTable& verdicts) {
+std::int64_t seed_interior(TetMesh& mesh, const SizeLaw& law, const std::atomic<bool>* cancel,
+                           VerdictTable& verdicts) {
   SeedOptions options;
   options.growth = law.growth();
-  options.size = [&](const Vec3& p, double bound) { return law.bounded(p, bound); };
+  options.largest = law.hmax;
+  options.cancel = cancel;
+  if (law.field) options.size = [&](const Vec3& p, double bound) { return law.bounded(p, bound); };
   // The largest size is that of most of the volume: its cells are to fit.
   const double smallest = *std::ranges::min_element(mesh.sizes);
   const int levels = std::clamp(int(std::ceil(std::log2(law.hmax / smallest))), 0, kMostLevels);

@@ -1,4 +1,6 @@
 #pragma once
+#include <atomic>
+
 #include "cavea/cavity/verdict.h"
 #include "cavea/mesh/tet_mesh.h"
 #include "cavea/remesh/size_law.h"
@@ -9,8 +11,9 @@ namespace cavea {
 /// lattices whose cells double from level to level, inserted by the Delaunay kernel from the
 /// coarsest to the finest. Away from the surface and from changes of size all tets are then alike,
 /// and about the best that can be had of one kind: a quality of 0.93. \pre no holes
-/// \return the number of vertices
-std::int64_t seed_interior(TetMesh& mesh, const SizeLaw& law, VerdictTable& verdicts);
+/// \return the number of vertices \throw Cancelled
+std::int64_t seed_interior(TetMesh& mesh, const SizeLaw& law, const std::atomic<bool>* cancel,
+                           VerdictTable& verdicts);
 
 /// Good tets of conforming lengths need not be asked for anything.
 void trust_good_tets(TetMesh& mesh);

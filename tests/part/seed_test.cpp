@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
+#include "cavea/base/error.h"
 #include "cavea/base/parallel.h"
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/compact.h"
@@ -14,12 +16,14 @@
 namespace cavea::test {
 namespace {
 
+const Box kUnit{{0, 0, 0}, {1, 1, 1}};
+
 /// All points of a level in the unit cube, from the tets of a mesh of it.
 std::vector<std::array<double, 3>> points_of(const TetMesh& mesh, const Lattice& lattice, int level,
                                              int coarsest) {
   std::vector<std::array<double, 3>> points;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    lattice.for_each_inside(mesh.corners(TetId(t)), level, coarsest, [&](const Vec3& p) {
+    lattice.for_each_inside(mesh.corners(TetId(t)), kUnit, level, coarsest, [&](const Vec3& p) {
       points.push_back({p.x, p.y, p.z});
     });
   std::sort(points.begin(), points.end());
@@ -68,6 +72,34 @@ VerdictTable seed_all(TetMesh& mesh, const SeedOptions& options, int coarsest) {
     compact(mesh);
   }
   return verdicts;
+}
+
+TEST(Seeds, AroundASmallSizeAreThoseOfALookAtAllPoints) {
+  // Levels down to a hundredth of the tets, in which few points are wanted.
+  SeedOptions near = seeds_of(0.01);
+  near.growth = std::log(1.3);
+  SeedOptions all = near;
+  all.size = [](const Vec3&, double bound) { return bound; };
+  std::vector<std::vector<Vec3>> results;
+  for (const SeedOptions& options : {near, all}) {
+    TetMesh mesh = cube(1, 0.5);
+    mesh.sizes[0] = mesh.sizes[7] = 0.01f;
+    seed_all(mesh, options, 5);
+    std::ranges::sort(mesh.points, [](const Vec3& a, const Vec3& b) {
+      return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    });
+    results.push_back(mesh.points);
+  }
+  EXPECT_GT(results[0].size(), 100u);
+  EXPECT_EQ(results[0], results[1]);
+}
+
+TEST(Seeds, CanBeCancelled) {
+  std::atomic<bool> cancel = true;
+  SeedOptions options = seeds_of(0.05);
+  options.cancel = &cancel;
+  TetMesh mesh = cube(1, 0.05);
+  EXPECT_THROW(seed_level(mesh, options, 0, 0), Cancelled);
 }
 
 TEST(Seeds, FillTheVolumeWithTheLattice) {
