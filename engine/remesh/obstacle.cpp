@@ -22,6 +22,11 @@ constexpr double kNarrow = 0.3;
 /// The same where it is shorter than this share of the longest edge of its tet: if all others are
 /// alike, the quality is at most 0.3.
 constexpr double kNeedle = 0.2;
+/// If all edges at a vertex are within this angle of each other, in degrees, its tets have at most
+/// a quality of 0.3: that of three edges of one length and 18.5 degrees apart.
+constexpr double kSmallTip = 18.5;
+/// Tets that an obstacle may have made poor, as is said of those in the report.
+constexpr double kPoor = 0.3;
 /// Cosine between the way through a wall and the normals of its sides, 45 degrees.
 constexpr double kThrough = 0.7;
 
@@ -78,6 +83,26 @@ double sharpest_tip(OperatorContext& c, TetId t) {
     });
   }
   return sharpest;
+}
+
+/// The largest angle, in degrees, between an edge of tet t and any other edge at a corner of it;
+/// the least of those of all its corners.
+double narrowest_point(OperatorContext& c, TetId t) {
+  double narrowest = 180;
+  for (const VertexId v : c.mesh.tets[t]) {
+    if (!(c.tags(v) & tag::kCorner)) continue;
+    gather_ball(c.mesh, v, c.marker, c.ball);
+    double widest = 0;
+    for (const TetId n : c.ball.tets)
+      for (const VertexId a : c.mesh.tets[n])
+        for (const VertexId b : c.mesh.tets[t]) {
+          if (a == v || b == v) continue;
+          const Vec3 x = c.point(a) - c.point(v), y = c.point(b) - c.point(v);
+          widest = std::max(widest, std::atan2(norm(cross(x, y)), dot(x, y)));
+        }
+    narrowest = std::min(narrowest, widest * 180 / std::numbers::pi);
+  }
+  return narrowest;
 }
 
 /// The shortest edge of tet t that bridges feature curves, in wanted lengths; infinite if none
@@ -158,6 +183,8 @@ std::string obstacle_at(OperatorContext& c, TetId t) {
     return fmt::format("the surface meets itself at {:.3g} degrees", angle);
   if (const double angle = sharpest_tip(c, t); angle < kSmallFaceAngle)
     return fmt::format("feature curves meet at {:.3g} degrees", angle);
+  if (const double angle = narrowest_point(c, t); angle < kSmallTip)
+    return fmt::format("the domain ends in a tip of {:.3g} degrees", angle);
   if (const Bridge b = shortest_bridge(c, t); b.in_sizes < kNarrow || b.of_longest < kNeedle)
     return fmt::format("feature curves or corners are {:.3g} apart, {:.2g} of the wanted length",
                        b.length, b.in_sizes);
@@ -170,13 +197,30 @@ std::string obstacle_at(OperatorContext& c, TetId t) {
   return "";
 }
 
+/// A tet and poor ones around it, each of which has a vertex in common with one before.
+std::vector<TetId> poor_tets_around(OperatorContext& c, TetId t) {
+  constexpr std::size_t kMost = 32;
+  std::vector<TetId> found = {t};
+  for (std::size_t i = 0; i < found.size() && found.size() < kMost; ++i)
+    for (const VertexId v : c.mesh.tets[found[i]]) {
+      gather_ball(c.mesh, v, c.marker, c.ball);
+      for (const TetId n : c.ball.tets)
+        if (c.mesh.qualities[n] < kPoor && std::ranges::find(found, n) == found.end())
+          found.push_back(n);
+    }
+  return found;
+}
+
 }  // namespace
 
 std::string obstacle_of(OperatorContext& c, TetId t) {
   std::string what = obstacle_at(c, t);
   for (int f = 0; f < 4 && what.empty(); ++f)
     if (const FaceLink link = c.mesh.links[t][f]; link.is_tet()) what = obstacle_at(c, link.tet());
-  return what;
+  if (!what.empty()) return what;
+  for (const TetId n : poor_tets_around(c, t))
+    if (what = obstacle_at(c, n); !what.empty()) return "among the poor tets around: " + what;
+  return "";
 }
 
 }  // namespace cavea
