@@ -121,6 +121,8 @@ class SurfaceModel {
   void set_tolerances();
   void set_tangents();
   void set_control_points();
+  void flatten_folds();
+  bool is_folded(std::int32_t facet) const;
   void set_chain_lengths();
   void set_sizes();
   void set_anchors(TetMesh& mesh) const;

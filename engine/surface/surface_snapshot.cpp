@@ -26,6 +26,15 @@ struct FacetAngle {
   }
 };
 
+/// A patch with control points within this share of the least height of its facet does not fold.
+constexpr double kFlatShare = 0.25;
+
+double least_height(const std::array<Vec3, 3>& p) {
+  const double longest2 =
+      std::max({distance2(p[0], p[1]), distance2(p[1], p[2]), distance2(p[2], p[0])});
+  return longest2 > 0 ? norm(cross(p[1] - p[0], p[2] - p[0])) / std::sqrt(longest2) : 0;
+}
+
 FacetAngle angle_at(const std::array<Vec3, 3>& corners, int k) {
   return {corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]};
 }
@@ -49,6 +58,7 @@ SurfaceModel::SurfaceModel(TetMesh& mesh, const Settings& settings) : settings_(
 void SurfaceModel::shape() {
   set_tangents();
   set_control_points();
+  flatten_folds();
   set_sizes();
   set_crease_sizes();
 }
@@ -282,6 +292,45 @@ void SurfaceModel::set_control_points() {
     p.corner = facet_corners(std::int32_t(f));
     for (int k = 0; k < 3; ++k) p.edge[k] = edge_controls(std::int32_t(f), k);
     p.set_center();
+  });
+}
+
+/// A patch whose edges bulge by different amounts, beside a ridge for example, is steep where its
+/// facet is flat: it may turn over, or stand on other patches.
+void SurfaceModel::flatten_folds() {
+  constexpr int kPasses = 4;  // what is flattened bends those around it
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::vector<char> folded(facets_.size());
+    parallel_for(folded.size(), [&](std::size_t f) { folded[f] = is_folded(std::int32_t(f)); });
+    if (std::ranges::find(folded, 1) == folded.end()) return;
+    for (std::size_t f = 0; f < folded.size(); ++f)
+      if (folded[f])
+        for (const std::int32_t v : facets_[f])
+          vertex_bulge_[v] =
+              std::min(vertex_bulge_[v], kFlatShare * least_height(facet_corners(std::int32_t(f))));
+    set_tangents();
+    set_control_points();
+  }
+}
+
+/// Whether the normals of the patch are far from those of the surface at its corners.
+bool SurfaceModel::is_folded(std::int32_t f) const {
+  constexpr double kLeastCosine = 0.5;  // 60 degrees: operators allow surface triangles no more
+  constexpr double kPlaces[][2] = {{1. / 3, 1. / 3}, {.5, 0},   {0, .5},   {.5, .5},
+                                   {.7, .15},        {.15, .7}, {.15, .15}};
+  const BezierTriangle& p = patches_[f];
+  const double height = least_height(p.corner);
+  double bulge2 = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 a = p.corner[(k + 1) % 3], d = p.corner[(k + 2) % 3] - a;
+    bulge2 = std::max(
+        {bulge2, distance2(p.edge[k][0], a + d / 3), distance2(p.edge[k][1], a + 2.0 / 3 * d)});
+  }
+  if (height == 0 || bulge2 <= kFlatShare * kFlatShare * height * height) return false;
+  return std::ranges::any_of(kPlaces, [&](const auto& at) {
+    const auto& n = normals_[f];
+    const Vec3 expected = (1 - at[0] - at[1]) * n[0] + at[0] * n[1] + at[1] * n[2];
+    return dot(normalized(p.normal(at[0], at[1])), normalized(expected)) < kLeastCosine;
   });
 }
 

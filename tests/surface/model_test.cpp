@@ -117,6 +117,39 @@ TEST(SurfaceModel, BulgeIsBounded) {
   }
 }
 
+/// A roof on a tip below, of which the first facet is flat and stands on a ridge; the normal given
+/// at its third vertex makes its two other edges bulge.
+MeshData roof_with_flat_facet() {
+  MeshData data;
+  data.vertices = {{0, 0, 0},     {10, 0, 0},   {5, 0.04, 0}, {0, 5, -0.8},
+                   {10, 5, -0.8}, {5, 2.5, -6}, {5, 2.5, -2}};
+  constexpr std::int32_t kInside = 6;
+  constexpr std::array<std::int32_t, 3> kFacets[] = {{0, 1, 2}, {0, 2, 3}, {2, 1, 4}, {2, 4, 3},
+                                                     {1, 0, 5}, {4, 1, 5}, {3, 4, 5}, {0, 3, 5}};
+  for (const auto& f : kFacets) {
+    data.tets.push_back({f[0], f[1], f[2], kInside});
+    data.tet_refs.push_back(0);
+  }
+  return data;
+}
+
+TEST(SurfaceModel, FlatFacetsBesideRidgesDoNotTurnOver) {
+  TetMesh mesh = build(roof_with_flat_facet()).mesh;
+  mesh.normals = {{2, {0.5, 0, 1}}};
+  const test::Modelled roof = modelled(std::move(mesh));
+  int flat = 0;
+  for (std::int32_t f = 0; f < std::int32_t(roof.model.facets()); ++f) {
+    const BezierTriangle& p = roof.model.patch_of_facet(f);
+    const Vec3 normal = normalized(cross(p.corner[1] - p.corner[0], p.corner[2] - p.corner[0]));
+    if (normal.z < 0.999) continue;
+    ++flat;
+    for (double u = 0; u <= 1; u += 0.125)
+      for (double v = 0; u + v <= 1; v += 0.125)
+        EXPECT_GT(dot(normalized(p.normal(u, v)), normal), 0.5) << u << " " << v;
+  }
+  EXPECT_EQ(flat, 1);
+}
+
 TEST(SurfaceModel, PlaceFindsThePlaceOnAFlatFaceFromAnywhereOnIt) {
   const auto cube = modelled_cube(4);
   Random random(1);
