@@ -68,6 +68,8 @@ Phase polish(const ResolvedOptions& o) {
   p.cycle.sweeps = 4;
   // In shells of better tets alone, hardly any swap raises the worst by enough.
   p.cycle.swap_ceiling = 0.75;
+  // Nor does moving vertices of good tets, but it wakes all around.
+  p.cycle.move_ceiling = 0.75;
   p.cycle.repair_below = 0.45;
   p.cycle.reconnect_below = 0.5;
   p.resize = false;
