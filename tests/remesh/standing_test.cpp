@@ -1,4 +1,6 @@
 // A mesh that is what is asked for is left as it is, but for what is wrong in it.
+#include "cavea/remesh/standing.h"
+
 #include <set>
 
 #include "cavea/surface/crossings.h"
@@ -82,11 +84,39 @@ std::vector<Body> bodies() {
           {"ball", ball(8), with_tolerance(0.004)},
           {"uniform_ball", ball(6), uniform(0.15)},
           {"rough_ball", rough_ball(), {}},
+          {"faceted_rough_ball", rough_ball(), faceted},
           {"sharp_wedge", sharp_wedge(), uniform(0.03)},
+          {"sharp_wedge_without_room", sharp_wedge(), {}},
           {"cylinder", cylinder(8), with_tolerance(0.01)},
           {"faceted_cylinder", cylinder(8), faceted},
           {"frame", frame(), uniform(0.06)},
           {"thin_plate", thin_plate(), uniform(0.05)}};
+}
+
+/// The quality of results, and lengths as a rerun finds them.
+MeshSummary found(double mean_length, double too_long_percent) {
+  MeshSummary summary;
+  summary.quality.mean = 0.79;
+  summary.lengths.edges = 1000;
+  summary.lengths.mean = mean_length;
+  summary.lengths.histogram[6] = std::int64_t(10 * too_long_percent);
+  return summary;
+}
+
+// Figures of reruns of a helmet, an anchor, two nested spheres, a knot and a star with sharp
+// points.
+TEST(Standing, IsNearlyWhatAResultIsFoundToBe) {
+  Options smooth, faceted;
+  faceted.faceted = true;
+  EXPECT_TRUE(is_nearly_result(found(1.29, 26), faceted));
+  EXPECT_FALSE(is_nearly_result(found(1.29, 26), smooth));
+  EXPECT_TRUE(is_nearly_result(found(0.86, 2), faceted));
+  EXPECT_TRUE(is_nearly_result(found(0.886, 0), smooth));
+  EXPECT_FALSE(is_nearly_result(found(0.69, 0), smooth));
+  EXPECT_FALSE(is_nearly_result(found(2, 90), faceted));
+  EXPECT_TRUE(may_have_made_room(found(0.69, 0), faceted));
+  EXPECT_TRUE(may_have_made_room(found(0.73, 6), smooth));
+  EXPECT_FALSE(may_have_made_room(found(0.3, 0), smooth));
 }
 
 class Again : public testing::TestWithParam<std::size_t> {};
