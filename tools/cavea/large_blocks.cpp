@@ -1,6 +1,8 @@
 // Replaces the operators new and delete of the program, whose arrays of large meshes are so many
 // pages that touching them for the first time is a tenth of a run: they are put on huge pages,
 // where the system has these for those who ask. What a library may not decide, a program may.
+// Sanitizers have their own, of which all must be of one kind.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #include <sys/mman.h>
 
 #include <cstddef>
@@ -36,3 +38,5 @@ void* operator new(std::size_t size) {
 
 void operator delete(void* block) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+
+#endif
