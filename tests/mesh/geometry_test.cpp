@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cavea/geometry/dihedral.h"
+#include "cavea/geometry/length_block.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/geometry/predicates.h"
 #include "cavea/geometry/quality.h"
@@ -137,6 +138,39 @@ TEST(EdgesByDihedral, OfAFlatTetAreAllSix) {
   std::array<int, 6> order = edges_by_dihedral({});
   std::sort(order.begin(), order.end());
   EXPECT_EQ(order, (std::array<int, 6>{0, 1, 2, 3, 4, 5}));
+}
+
+TEST(LengthBlock, LeavesOutOnlyWhatLengthsLeaveOut) {
+  constexpr std::uint64_t kSeed = 11;
+  constexpr double kLimit = 0.9;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  Random random{kSeed};
+  constexpr std::size_t kEnds[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+  LengthBlock block;
+  std::vector<std::array<Vec3, 4>> tets;
+  std::vector<std::array<double, 4>> sizes;
+  int left_out = 0, edges = 0;
+  for (int round = 0; round < 20; ++round) {
+    block.clear(), tets.clear(), sizes.clear();
+    while (!block.full() && (round % 2 || tets.size() < 37)) {
+      for (Vec3& p : tets.emplace_back())
+        p = {random.between(0, 1), random.between(0, 1), random.between(0, 1)};
+      for (double& h : sizes.emplace_back()) h = random.between(0.4, 1);
+      block.add(tets.back(), sizes.back());
+    }
+    const LengthBlock::Edges above = block.perhaps_above(kLimit);
+    const LengthBlock::Edges below = block.perhaps_below(kLimit);
+    for (std::size_t i = 0; i < block.size(); ++i)
+      for (std::size_t e = 0; e < 6; ++e, ++edges) {
+        const std::size_t a = kEnds[e][0], b = kEnds[e][1];
+        const bool is_above =
+            length_exceeds(distance2(tets[i][a], tets[i][b]), sizes[i][a], sizes[i][b], kLimit);
+        const bool may_be_above = above[i] >> e & 1, may_be_below = below[i] >> e & 1;
+        EXPECT_TRUE(is_above ? may_be_above : may_be_below) << "edge " << e << " of tet " << i;
+        left_out += !may_be_above || !may_be_below;
+      }
+  }
+  EXPECT_GT(3 * left_out, edges);  // else it is of no use
 }
 
 }  // namespace
