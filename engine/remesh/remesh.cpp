@@ -606,7 +606,8 @@ Result run_with_room(const TetMesh& input, const SizeField& field, const Options
     case Room::kLittle:
       // A little room is found by one run and missed by the next: what the input has decides, but
       // where it is much finer, the caller wants other sizes.
-      if (Run(input, field, options, Effort::kWhereNeeded, kFinerSizes[0]).stands())
+      if (has_the_quality_of_results(best.report.before.quality, false) &&
+          Run(input, field, options, Effort::kWhereNeeded, kFinerSizes[0]).stands())
         try_run(kFinerSizes[0], Effort::kWhereNeeded);
       break;
     case Room::kMissing:
