@@ -6,7 +6,7 @@
 #include <limits>
 #include <tuple>
 
-#include "cavea/base/error.h"
+#include "cavea/base/cancel.h"
 #include "cavea/base/parallel.h"
 #include "cavea/cavity/mesh_editor.h"
 #include "cavea/operator/vertex_insert.h"
@@ -85,7 +85,7 @@ class SeedLevel {
     float smallest = mesh_.sizes[k[0]];
     for (VertexId v : k) smallest = std::min(smallest, mesh_.sizes[v]);
     if (cell_ < kFinestCell * smallest) return;
-    check_cancelled();
+    throw_if_cancelled(options_.cancel);
     const std::array<Vec3, 4> tet = mesh_.corners(t);
     Box box;
     for (const Vec3& p : tet) box.add(p);
@@ -128,10 +128,6 @@ class SeedLevel {
     const double least = VertexInsert::kNearest * size;
     if (cell_ < kFinestCell * size || nearest2 < least * least) return;
     out.push_back({p, float(size), near});
-  }
-
-  void check_cancelled() const {
-    if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) throw Cancelled();
   }
 
   /// Sorts the seeds into blocks and inserts those of each colour at the same time; what a block's
@@ -213,7 +209,7 @@ class SeedLevel {
     Cavity cavity;
     for (std::size_t i = b.begin; i < b.end; ++i) {
       const Seed& s = seeds_[i];
-      if ((i - b.begin) % kSeedsBetweenChecks == 0) check_cancelled();
+      if ((i - b.begin) % kSeedsBetweenChecks == 0) throw_if_cancelled(options_.cancel);
       const TetId around = insert.locate(s.near, s.point);
       NewVertex vertex;
       vertex.point = s.point, vertex.size = s.size;

@@ -6,6 +6,10 @@
 
 namespace cavea {
 
+inline bool is_asked_for_lengths(const TetMesh& m, std::size_t t) {
+  return (m.tet_flags[t] & tet_flag::kAskLength) && m.tet_alive(TetId(t));
+}
+
 /// Calls f(tet, a, b) for the edges of tets that are asked for lengths, tet by tet in ascending
 /// order, but for those that `perhaps`, of a block of tets, leaves out.
 template <class Perhaps, class F>
@@ -23,7 +27,7 @@ void for_each_asked_edge(const TetMesh& m, Perhaps&& perhaps, F&& f) {
     block.clear();
   };
   for (std::size_t t = 0; t < m.tets.size(); ++t) {
-    if (!(m.tet_flags[t] & tet_flag::kAskLength) || !m.tet_alive(TetId(t))) continue;
+    if (!is_asked_for_lengths(m, t)) continue;
     const auto& v = m.tets[t];
     ids[block.size()] = TetId(t);
     block.add(m.corners(TetId(t)), {m.sizes[v[0]], m.sizes[v[1]], m.sizes[v[2]], m.sizes[v[3]]});

@@ -1,6 +1,6 @@
 #include "cavea/pass/cycle.h"
 
-#include "cavea/base/error.h"
+#include "cavea/base/cancel.h"
 #include "cavea/pass/passes.h"
 
 namespace cavea {
@@ -9,7 +9,7 @@ CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
   for (std::uint8_t& flags : mesh.tet_flags) flags &= std::uint8_t(~tet_flag::kBlocked);
   PartState state(mesh, surface, settings);
   for (int sweep = 0; sweep < settings.sweeps; ++sweep) {
-    if (settings.cancel && settings.cancel->load(std::memory_order_relaxed)) throw Cancelled();
+    throw_if_cancelled(settings.cancel);
     std::int64_t changes = 0;
     if (settings.insert)
       changes += settings.delaunay_splits ? surface_pass(state) : split_pass(state);

@@ -71,8 +71,7 @@ std::vector<EdgeTask> split_tasks(const PartState& s) {
       });
   if (s.settings.shortest_fitted > 0)
     for (std::size_t t = 0; t < m.tets.size(); ++t)
-      if ((m.tet_flags[t] & tet_flag::kAskLength) && m.tet_alive(TetId(t)))
-        add_misfits(s, TetId(t), tasks);
+      if (is_asked_for_lengths(m, t)) add_misfits(s, TetId(t), tasks);
   sort_tasks(tasks);
   return tasks;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cavea/base/cancel.h"
 #include "cavea/base/error.h"
 #include "cavea/base/memory.h"
 #include "cavea/base/parallel.h"
@@ -137,7 +138,7 @@ class Run {
   }
 
   void tell(const char* phase, int round) const {
-    if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) throw Cancelled();
+    throw_if_cancelled(options_.cancel);
     if (options_.progress)
       options_.progress({phase, round, std::int64_t(mesh_.tets.size()), timer_.seconds()});
   }
