@@ -12,12 +12,17 @@
 
 namespace cavea {
 
+/// Collapses may make edges this many times too long, which the next sweep splits or relocation
+/// shortens: without, two of three edges that stay too short are stuck.
+inline constexpr double kToleratedLong = 1.05;
+
 /// What a phase of the recipe allows its operators (paper, section 4.3: each phase is stricter than
 /// the one before).
 struct Limits {
   double long_edge = kLongEdge;    ///< edges above are split; no collapse makes one
   double short_edge = kShortEdge;  ///< edges below are collapsed
-  /// No split makes an edge shorter than this, except its own halves.
+  /// No split makes an edge shorter than this, except its own halves. What a collapse could undo,
+  /// since it would make no more than a tolerated edge of it, makes none that is to be collapsed.
   double shortest_made = 0;
   /// A split or collapse may lower the worst quality of its cavity to this fraction of what it
   /// was...

@@ -12,10 +12,6 @@ constexpr double kRelaxedLong = 1.4;
 /// nearly touch can only vanish along edges that are long.
 constexpr double kNeedle = 0.1, kNeedleLong = 3;
 
-/// Other collapses may make edges this many times too long, which the next sweep splits or
-/// relocation shortens: without, two of three edges that stay too short are stuck.
-constexpr double kToleratedLong = 1.05;
-
 constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
 
 int index_in(const Triangle& t, VertexId v) {

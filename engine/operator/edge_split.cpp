@@ -1,5 +1,7 @@
 #include "cavea/operator/edge_split.h"
 
+#include <algorithm>
+
 #include "cavea/surface/midpoint.h"
 
 namespace cavea {
@@ -54,12 +56,24 @@ double halves(const OperatorContext& c, const Vec3& x, std::vector<float>& quali
   return worst;
 }
 
-bool makes_short_edge(const OperatorContext& c, const NewVertex& v) {
-  for (VertexId r : c.shell.ring)
-    if (metric_length(distance(v.point, c.point(r)), v.size, c.mesh.sizes[r]) <
-        c.limits.shortest_made)
-      return true;
-  return false;
+/// Whether a collapse of the vertex in its middle would leave an edge that is tolerated.
+bool is_tolerated(const OperatorContext& c) {
+  const Shell& s = c.shell;
+  return c.length_exceeds(s.p, s.q, c.limits.long_edge) &&
+         !c.length_exceeds(s.p, s.q, kToleratedLong * c.limits.long_edge);
+}
+
+bool makes_short_edge(const OperatorContext& c, const NewVertex& v, bool for_fit) {
+  const Shell& s = c.shell;
+  const auto is_short = [&](VertexId r, double limit) {
+    return metric_length(distance(v.point, c.point(r)), v.size, c.mesh.sizes[r]) < limit;
+  };
+  double limit = c.limits.shortest_made;
+  if (!for_fit && is_tolerated(c)) {
+    limit = std::max(limit, c.limits.short_edge);
+    if (is_short(s.p, limit) || is_short(s.q, limit)) return true;
+  }
+  return std::ranges::any_of(s.ring, [&](VertexId r) { return is_short(r, limit); });
 }
 
 void fill(const OperatorContext& c, VertexId id, const EdgeOnSurface& edge, Cavity& cavity) {
@@ -91,14 +105,14 @@ void fill(const OperatorContext& c, VertexId id, const EdgeOnSurface& edge, Cavi
 
 }  // namespace
 
-Verdict edge_split(OperatorContext& c, VertexId vertex_id, Cavity& cavity) {
+Verdict edge_split(OperatorContext& c, VertexId vertex_id, Cavity& cavity, bool for_fit) {
   cavity.clear();
   EdgeOnSurface edge;
   if (const Verdict v = may_split(c, edge); v != Verdict::kAccept) return v;
   double before = 1;
   for (TetId t : c.shell.tets) before = std::min(before, double(c.mesh.qualities[t]));
   NewVertex vertex = midpoint(c.mesh, c.surface, c.shell.p, c.shell.q, edge.triangle, edge.side);
-  if (makes_short_edge(c, vertex)) return Verdict::kBadLength;
+  if (makes_short_edge(c, vertex, for_fit)) return Verdict::kBadLength;
   const Vec3 straight = (c.point(c.shell.p) + c.point(c.shell.q)) / 2, target = vertex.point;
   // Splitting a flat tet gives flat tets; only where all of them are sound need the halves be.
   double worst = 0;

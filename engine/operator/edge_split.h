@@ -18,6 +18,8 @@ Verdict may_split(const OperatorContext& context, EdgeOnSurface& edge);
 /// the edge is on the surface, on the feature curve where it is on one. Where the place on the
 /// surface cannot be reached without inverting a tet, the vertex stops half way, or stays on the
 /// straight edge and is tagged kOffSurface. \pre context.shell is the shell of the edge.
-Verdict edge_split(OperatorContext& context, VertexId vertex_id, Cavity& cavity);
+/// \param for_fit the edge is too far from the surface, whatever its length
+Verdict edge_split(OperatorContext& context, VertexId vertex_id, Cavity& cavity,
+                   bool for_fit = false);
 
 }  // namespace cavea

@@ -13,6 +13,7 @@ struct EdgeTask {
   float urgency;  ///< treated from the largest down
   VertexId a, b;  ///< a < b
   TetId tet;
+  bool for_fit;  ///< to the surface
 };
 
 enum class Outcome { kDone, kRefused, kGone };
@@ -53,7 +54,7 @@ void add_misfits(const PartState& s, TetId tet, std::vector<EdgeTask>& tasks) {
       if (const double x = misfit(s, t, k); x > 1) {
         const VertexId a = t.v[(k + 1) % 3], b = t.v[(k + 2) % 3];
         tasks.push_back(
-            {float(s.context.limits.long_edge * x), std::min(a, b), std::max(a, b), tet});
+            {float(s.context.limits.long_edge * x), std::min(a, b), std::max(a, b), tet, true});
       }
   }
 }
@@ -67,7 +68,7 @@ std::vector<EdgeTask> split_tasks(const PartState& s) {
       [&](TetId t, VertexId i, VertexId j) {
         const VertexId a = std::min(i, j), b = std::max(i, j);
         if (s.context.length_exceeds(a, b, limit))
-          tasks.push_back({float(s.context.length(a, b)), a, b, t});
+          tasks.push_back({float(s.context.length(a, b)), a, b, t, false});
       });
   if (s.settings.shortest_fitted > 0)
     for (std::size_t t = 0; t < m.tets.size(); ++t)
@@ -112,7 +113,7 @@ std::int64_t split_pass(PartState& s) {
       s.mesh().tet_flags[task.tet] |= tet_flag::kAskLater;
       return Outcome::kRefused;
     }
-    const Verdict v = edge_split(s.context, s.editor.next_vertex(), s.cavity);
+    const Verdict v = edge_split(s.context, s.editor.next_vertex(), s.cavity, task.for_fit);
     if (v == Verdict::kFrozen && s.at_interface(task.a) && s.at_interface(task.b))
       s.block(task.tet);
     if (!s.count(Operator::kEdgeSplit, v)) return Outcome::kRefused;
