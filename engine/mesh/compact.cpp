@@ -13,6 +13,8 @@ FaceLink renumbered(FaceLink link, const Renumbering& tets, const Renumbering& t
   return link;
 }
 
+}  // namespace
+
 bool has_holes(const TetMesh& mesh) {
   const auto dead = [](std::size_t n, auto&& is_alive) {
     return parallel_reduce(
@@ -27,8 +29,6 @@ bool has_holes(const TetMesh& mesh) {
          dead(mesh.tets.size(), [&](std::size_t t) { return mesh.tet_alive(TetId(t)); }) ||
          dead(mesh.triangles.size(), [&](std::size_t i) { return mesh.triangles[i].alive(); });
 }
-
-}  // namespace
 
 void compact(TetMesh& mesh) {
   if (!has_holes(mesh)) return;

@@ -113,7 +113,7 @@ RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
     if (part_of_tet) part_of_tet->assign(mesh.tets.size(), 0);
     return result;
   }
-  make_room(mesh, active.size());
+  if (settings.insert) make_room(mesh, active.size());
   std::vector<std::int32_t> labels = label_parts(mesh, active, count);
   active = std::vector<TetId>();
   std::vector<Part> parts = extract_parts(mesh, std::exchange(labels, {}), count);

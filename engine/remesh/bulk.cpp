@@ -55,12 +55,12 @@ double share_to_divide(const TetMesh& m, const std::vector<Item>& items) {
   return double(long_ones) / double(items.size());
 }
 
-bool is_worthwhile(const TetMesh& m, BulkEdges which) {
-  return (which == BulkEdges::kOfSurface ? share_to_divide(m, m.triangles)
-                                         : share_to_divide(m, m.tets)) > kWorthwhile;
-}
-
 }  // namespace
+
+bool is_worth_bulk(const TetMesh& mesh, BulkEdges which) {
+  return (which == BulkEdges::kOfSurface ? share_to_divide(mesh, mesh.triangles)
+                                         : share_to_divide(mesh, mesh.tets)) > kWorthwhile;
+}
 
 int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, BulkEdges which,
                    const std::function<void()>& resize) {
@@ -70,7 +70,7 @@ int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, BulkEdges which,
     return which == BulkEdges::kAll && is_long(mesh, e.a, e.b, kLongAnywhere);
   };
   int level = 0;
-  for (; level < kMostLevels && is_worthwhile(mesh, which); ++level) {
+  for (; level < kMostLevels && is_worth_bulk(mesh, which); ++level) {
     mesh = subdivide(mesh, halved, [&](const MeshEdge& e) {
       return midpoint(mesh, surface, e.a, e.b, e.triangle, e.side);
     });

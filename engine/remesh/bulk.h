@@ -8,6 +8,9 @@ namespace cavea {
 
 enum class BulkEdges { kOfSurface, kAll };
 
+/// Whether so much is long that a level of subdivision is worth its cost.
+bool is_worth_bulk(const TetMesh& mesh, BulkEdges which);
+
 /// Pattern subdivision, all at once and level by level, of the edges that are much longer than
 /// wanted (paper, section 4.1.1), until few are left; `resize` sets the wanted sizes of a finer
 /// mesh. Those of the surface if seed_interior() is to fill the volume; all where the body is too

@@ -21,6 +21,7 @@
 #include "cavea/remesh/budget.h"
 #include "cavea/remesh/bulk.h"
 #include "cavea/remesh/forecast.h"
+#include "cavea/remesh/input.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/resolved.h"
 #include "cavea/remesh/seeding.h"
@@ -73,10 +74,10 @@ std::string to_text(const Vec3& p) {
 /// One run of remesh(): the mesh it works on and what it reports.
 class Run {
  public:
-  Run(const TetMesh& input, const SizeField& field, const Options& options,
+  Run(Input& input, const SizeField& field, const Options& options,
       Effort effort = Effort::kWhereNeeded, double finer = 1)
-      : mesh_(copy_of(input)),
-        input_(input),
+      : input_(input),
+        mesh_(input.lend()),
         field_(field),
         options_(options),
         effort_(effort),
@@ -89,9 +90,17 @@ class Run {
     field_ = with_regions(field_, options.size_regions, r_.hgrad);
   }
 
+  /// What was lent to it and is no result goes back.
+  ~Run() {
+    if (!is_taken_) input_.take_back(mesh_);
+  }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
   void operator()() {
     timed("analysis", [&] { analyse(); });
     mends_ = ask_if_it_stands();
+    if (!mends_ || poor_ > 0) input_.keep(mesh_);
     const bool filled = !mends_ && fill();
     const std::vector<Phase> phases = mends_ ? standing_recipe(r_) : recipe(r_, filled);
     for (const Phase& phase : phases) {
@@ -125,7 +134,12 @@ class Run {
            gained_nothing(report_.before, report_.after, options_);
   }
 
-  TetMesh mesh_;
+  /// The mesh that came out: if nothing was changed, with what was lent.
+  TetMesh take_mesh() {
+    is_taken_ = true;
+    return std::move(mesh_);
+  }
+
   Report report_;
 
  private:
@@ -255,20 +269,22 @@ class Run {
   bool fill() {
     if (r_.freeze.insert) return false;
     constexpr double kFew = 0.05;  // of all vertices
-    TetMesh before = copy_of(mesh_);
     const bool needles = report_.before.quality.mean < kOfNeedles;
+    std::optional<TetMesh> before;
+    if (!r_.freeze.surface && (needles || is_worth_bulk(mesh_, BulkEdges::kOfSurface)))
+      before = copy_of(mesh_);
     if (needles)
       timed("surface", [&] { refine_among_needles(); });
     else
       timed("bulk", [&] { refine(BulkEdges::kOfSurface); });
-    const bool divided = mesh_.points.size() > before.points.size();
+    const bool divided = before && mesh_.points.size() > before->points.size();
     const Phase thin = thinning(r_);
     timed(thin.name, [&] { run_phase(thin); });
     std::int64_t seeds = 0;
     timed("seeding", [&] { seeds = seed(); });
     if (!divided || double(seeds) >= kFew * double(mesh_.points.size())) return true;
     // Too thin for seeds: a fine surface around what is coarse inside is then hard to mend.
-    mesh_ = std::move(before);
+    mesh_ = *std::move(before);
     timed("bulk", [&] { refine(BulkEdges::kAll); });
     return false;
   }
@@ -407,8 +423,9 @@ class Run {
   }
 
   void finish() {
-    if (options_.finish && !r_.freeze.move && !r_.freeze.surface)
-      timed("finish", [&] { options_.finish(mesh_); });
+    if (!options_.finish || r_.freeze.move || r_.freeze.surface) return;
+    input_.keep(mesh_);
+    timed("finish", [&] { options_.finish(mesh_); });
   }
 
   /// Repairs may leave poor tets as phases do, and mending these may move the surface.
@@ -434,6 +451,7 @@ class Run {
 
   /// Makes the surface finer where it is too far from the model: what the curvature did not tell.
   void repair() {
+    input_.keep(mesh_);
     // The smallest size is a wish, but what bounds a uniform one from below would forbid repairs.
     constexpr double kFinest = 0.125;
     const double finest = r_.uniform() ? kFinest * r_.smallest : r_.smallest;
@@ -477,7 +495,9 @@ class Run {
 
   /// Whether nothing was found to do in an input that stands.
   bool is_as_before() const {
-    return mends_ && !options_.finish && mesh_.points == input_.points && mesh_.tets == input_.tets;
+    if (input_.is_lent()) return true;
+    const TetMesh& input = input_.mesh();
+    return mends_ && !options_.finish && mesh_.points == input.points && mesh_.tets == input.tets;
   }
 
   void measure() {
@@ -496,12 +516,12 @@ class Run {
     report_.hgrad = r_.hgrad;
     crossings_ = find_crossings(mesh_);
     set_targets();
-    if (!crossings_.empty()) warn_of_crossings_in(input_);
+    if (!crossings_.empty())
+      warn_of_crossings(input_.is_lent() ? crossings_ : find_crossings(input_.mesh()));
   }
 
   /// A result that crosses itself may have that from its input.
-  void warn_of_crossings_in(const TetMesh& input) {
-    const std::vector<Crossing> crossings = find_crossings(input);
+  void warn_of_crossings(const std::vector<Crossing>& crossings) {
     if (crossings.empty()) return;
     report_.warnings.push_back(
         fmt::format("the surface of the input passes through itself: {} pairs of triangles, the "
@@ -532,7 +552,9 @@ class Run {
         crossings_.empty() ? Vec3{} : crossings_[0].where);
   }
 
-  const TetMesh& input_;
+  Input& input_;
+  TetMesh mesh_;
+  bool is_taken_ = false;
   SizeField field_;
   const Options& options_;
   Effort effort_;
@@ -566,7 +588,7 @@ struct Result {
 
 /// A run, and where the input turns out to be as good as its result another one that only mends it,
 /// or leaves it if that does not help.
-Result run_once(const TetMesh& input, const SizeField& field, const Options& options, double finer,
+Result run_once(Input& input, const SizeField& field, const Options& options, double finer,
                 Effort effort = Effort::kWhereNeeded) {
   std::optional<Run> run;
   std::vector<PhaseTime> in_vain;
@@ -578,14 +600,14 @@ Result run_once(const TetMesh& input, const SizeField& field, const Options& opt
   run_with(effort);
   if (run->in_vain()) run_with(Effort::kMend);
   if (run->mended_in_vain()) run_with(Effort::kLeave);
-  Result result{std::move(run->mesh_), std::move(run->report_)};
+  Result result{run->take_mesh(), std::move(run->report_)};
   result.add_before(in_vain);
   return result;
 }
 
 /// Where elements have no room, smaller ones, if that helps: those that the input has already, or
 /// else the largest ones.
-Result run_with_room(const TetMesh& input, const SizeField& field, const Options& options) {
+Result run_with_room(Input& input, const SizeField& field, const Options& options) {
   Result best = run_once(input, field, options, 1);
   const auto room = [&](const Result& result) {
     return room_in(result.report.after, options, bool(field));
@@ -601,7 +623,9 @@ Result run_with_room(const TetMesh& input, const SizeField& field, const Options
     best.add_before(result.report.phases);
     return helps;
   };
-  switch (room(best)) {
+  const Room room_of_first = room(best);
+  if (room_of_first != Room::kEnough) input.keep(best.mesh);
+  switch (room_of_first) {
     case Room::kEnough:
       break;
     case Room::kLittle:
@@ -628,7 +652,9 @@ Report remesh(TetMesh& mesh, const SizeField& field, const Options& options) {
   const Timer timer;
   Report report;
   run_in_arena(threads, [&] {
-    Result result = run_with_room(mesh, field, options);
+    // A field of the caller, or the surface that he names, may look at the mesh.
+    Input input(mesh, !field && !options.surface);
+    Result result = run_with_room(input, field, options);
     report = std::move(result.report);
     mesh = std::move(result.mesh);
   });
