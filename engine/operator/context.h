@@ -21,9 +21,11 @@ inline constexpr double kToleratedLong = 1.05;
 struct Limits {
   double long_edge = kLongEdge;    ///< edges above are split; no collapse makes one
   double short_edge = kShortEdge;  ///< edges below are collapsed
-  /// No split makes an edge shorter than this, except its own halves. What a collapse could undo,
-  /// since it would make no more than a tolerated edge of it, makes none that is to be collapsed.
+  /// No split makes an edge shorter than this, except its own halves.
   double shortest_made = 0;
+  /// Nor does a split that a collapse could undo, since it would make no more than a tolerated edge
+  /// of it, make one that is to be collapsed. Before the end, to and fro finds what is better.
+  bool leave_tolerated = false;
   /// A split or collapse may lower the worst quality of its cavity to this fraction of what it
   /// was...
   double quality_ratio = 0.5;

@@ -69,7 +69,7 @@ bool makes_short_edge(const OperatorContext& c, const NewVertex& v, bool for_fit
     return metric_length(distance(v.point, c.point(r)), v.size, c.mesh.sizes[r]) < limit;
   };
   double limit = c.limits.shortest_made;
-  if (!for_fit && is_tolerated(c)) {
+  if (c.limits.leave_tolerated && !for_fit && is_tolerated(c)) {
     limit = std::max(limit, c.limits.short_edge);
     if (is_short(s.p, limit) || is_short(s.q, limit)) return true;
   }

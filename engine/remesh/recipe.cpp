@@ -63,6 +63,7 @@ Phase fine(const ResolvedOptions& o) {
 Phase polish(const ResolvedOptions& o) {
   Phase p{"polish", base(o), 2, 0.005, 0};
   p.cycle.limits.shortest_made = kShortEdge;
+  p.cycle.limits.leave_tolerated = true;
   p.cycle.limits.quality_ratio = 0.9;
   p.cycle.limits.quality_floor = 0.4;
   p.cycle.sweeps = 4;
