@@ -17,7 +17,8 @@ class CollapsePass {
 
   std::int64_t run() {
     find_short_edges();
-    for (std::uint8_t& flags : m_.tet_flags) flags &= std::uint8_t(~tet_flag::kAskLength);
+    if (!s_.slack)
+      for (std::uint8_t& flags : m_.tet_flags) flags &= std::uint8_t(~tet_flag::kAskLength);
     std::int64_t done = 0;
     for (const VertexId v : vertices_in_order()) done += ask(v);
     return done;

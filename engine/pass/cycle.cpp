@@ -4,6 +4,18 @@
 #include "cavea/pass/passes.h"
 
 namespace cavea {
+namespace {
+
+/// The limits of the lengths in a sweep.
+void set_lengths(PartState& state, int sweep) {
+  const CycleSettings& s = state.settings;
+  state.slack = sweep == 0 && s.first_slack > 1;
+  const double slack = state.slack ? s.first_slack : 1;
+  state.context.limits.long_edge = s.limits.long_edge * slack;
+  state.context.limits.short_edge = s.limits.short_edge / slack;
+}
+
+}  // namespace
 
 CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings) {
   for (std::uint8_t& flags : mesh.tet_flags) flags &= std::uint8_t(~tet_flag::kBlocked);
@@ -11,6 +23,7 @@ CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
   for (int sweep = 0; sweep < settings.sweeps; ++sweep) {
     throw_if_cancelled(settings.cancel);
     std::int64_t changes = 0;
+    set_lengths(state, sweep);
     if (settings.insert)
       changes += settings.delaunay_splits ? surface_pass(state) : split_pass(state);
     if (settings.collapse) changes += collapse_pass(state);

@@ -18,6 +18,9 @@ struct CycleSettings {
   /// down to this Euclidean length; 0: never.
   double shortest_fitted = 0;
   int sweeps = 6;
+  /// In the first sweep lengths this many times beyond the limits are left to the next one: by then
+  /// swaps and relocation have evened out much of what is only a little too long or too short.
+  double first_slack = 1;
   /// After a sweep that changed no more than this share of the tets the rest is left to the next
   /// round.
   double settled = 0.001;

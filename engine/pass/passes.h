@@ -29,6 +29,8 @@ struct PartState {
   CycleSettings settings;
   Cavity cavity;
   CycleResult result;
+  /// Whether lengths may still be off by the first sweep's slack.
+  bool slack = false;
   /// Whether bad tets are offered more than swaps: many are good again after the first sweep.
   bool last_resorts = false;
 };

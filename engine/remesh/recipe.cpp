@@ -15,6 +15,9 @@ constexpr double kFittedEdge = 1.5;
 /// The paper's rough bounds of lengths (section 4.3, step 4).
 constexpr double kRoughLong = 2.0, kRoughShort = 0.4;
 
+/// Lengths between seeds are no farther off than this where it is for swaps and relocation to mend.
+constexpr double kEvenedOut = 1.25;
+
 /// Each level makes twice the tets, of which few are at the interface: parts pay early.
 constexpr std::int64_t kOneSurfacePart = 2000;
 
@@ -132,9 +135,10 @@ std::vector<Phase> poor_recipe(const ResolvedOptions& o) {
   return phases;
 }
 
-std::vector<Phase> recipe(const ResolvedOptions& o, bool filled) {
-  if (!filled) return {rough(o), fine(o), polish(o)};
+std::vector<Phase> recipe(const ResolvedOptions& o, Seeds seeds) {
+  if (seeds == Seeds::kNone) return {rough(o), fine(o), polish(o)};
   Phase first = fine(o);
+  if (seeds == Seeds::kMost) first.cycle.first_slack = kEvenedOut;
   first.ask = 0;  // all are asked, but those that are trusted
   return {first, polish(o)};
 }

@@ -25,10 +25,13 @@ struct Phase {
   int budget_rounds = 0;
 };
 
+/// How many of a mesh's vertices are seeds; kNone where it was not filled with them at all.
+enum class Seeds { kNone, kSome, kMost };
+
 /// The phases of section 4.3: rough sampling of the surface, rough and fine adaptation to the
-/// sizes, and a last polish of quality. Nothing is rough in a mesh that is thinned and `filled`
-/// with seeds.
-std::vector<Phase> recipe(const ResolvedOptions& options, bool filled);
+/// sizes, and a last polish of quality. Nothing is rough in a mesh that is thinned and filled with
+/// seeds.
+std::vector<Phase> recipe(const ResolvedOptions& options, Seeds seeds);
 
 /// The phase before that: long edges of the surface are halved, level by level.
 Phase surfacing(const ResolvedOptions& options);

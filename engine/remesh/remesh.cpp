@@ -101,8 +101,7 @@ class Run {
     timed("analysis", [&] { analyse(); });
     mends_ = ask_if_it_stands();
     if (!mends_ || poor_ > 0) input_.keep(mesh_);
-    const bool filled = !mends_ && fill();
-    const std::vector<Phase> phases = mends_ ? standing_recipe(r_) : recipe(r_, filled);
+    const std::vector<Phase> phases = mends_ ? standing_recipe(r_) : recipe(r_, fill());
     for (const Phase& phase : phases) {
       forget_interfaces(mesh_);
       timed(phase.name, [&] { run_phase(phase); });
@@ -265,10 +264,9 @@ class Run {
   }
 
   /// Brings the mesh near the wanted sizes by what needs no search for where to put vertices.
-  /// \return whether seeds found room in it
-  bool fill() {
-    if (r_.freeze.insert) return false;
-    constexpr double kFew = 0.05;  // of all vertices
+  Seeds fill() {
+    if (r_.freeze.insert) return Seeds::kNone;
+    constexpr double kFew = 0.05, kMost = 0.5;  // of all vertices
     const bool needles = report_.before.quality.mean < kOfNeedles;
     std::optional<TetMesh> before;
     if (!r_.freeze.surface && (needles || is_worth_bulk(mesh_, BulkEdges::kOfSurface)))
@@ -282,11 +280,13 @@ class Run {
     timed(thin.name, [&] { run_phase(thin); });
     std::int64_t seeds = 0;
     timed("seeding", [&] { seeds = seed(); });
-    if (!divided || double(seeds) >= kFew * double(mesh_.points.size())) return true;
+    const double share = double(seeds) / double(mesh_.points.size());
+    if (share >= kMost) return Seeds::kMost;
+    if (!divided || share >= kFew) return Seeds::kSome;
     // Too thin for seeds: a fine surface around what is coarse inside is then hard to mend.
     mesh_ = *std::move(before);
     timed("bulk", [&] { refine(BulkEdges::kAll); });
-    return false;
+    return Seeds::kNone;
   }
 
   /// Whether the input is what is asked for, but for places: then those alone are asked, so that
