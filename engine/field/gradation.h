@@ -17,4 +17,9 @@ struct ImposedSizes {
 /// again below that. Parallel. \pre no holes; h_grad >= 1, infinity for no bound
 void limit_gradation(TetMesh& mesh, double h_grad, const ImposedSizes& imposed = {});
 
+/// Lowers only what is too large for sizes that are smaller than they were `before`, or for what is
+/// lowered so: the others met the bound, or nearly. No size becomes larger than before. Parallel.
+void limit_gradation_of_lowered(TetMesh& mesh, double h_grad, const std::vector<float>& before,
+                                const ImposedSizes& imposed = {});
+
 }  // namespace cavea

@@ -30,6 +30,20 @@ SizeRange wished_range(const TetMesh& mesh, const SizeField& field) {
       });
 }
 
+namespace {
+
+ImposedSizes imposed_on(const TetMesh& mesh, const SizeBounds& bounds) {
+  if (!bounds.hgradreq && !bounds.surface_imposes) return {};
+  return {required_sizes(mesh, bounds.surface_imposes),
+          bounds.hgradreq.value_or(std::numeric_limits<double>::infinity())};
+}
+
+double bounded(double size, double hmin, const SizeBounds& bounds) {
+  return bounds.scale * std::max(bounds.finer * size, hmin);
+}
+
+}  // namespace
+
 void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>& curvature_size,
                       const SizeField& field, const SizeBounds& bounds) {
   const VertexBounds at = bounds_of_vertices(mesh, bounds.hmin, bounds.hmax, bounds.local);
@@ -42,19 +56,28 @@ void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>&
       if (!(wish > 0)) atomic_min(senseless, VertexId(v));
       h = std::min(h, wish);
     }
-    mesh.sizes[v] = float(bounds.scale * std::max(bounds.finer * h, double(at.hmin[v])));
+    mesh.sizes[v] = float(bounded(h, at.hmin[v], bounds));
   });
   if (std::size_t(senseless) < mesh.points.size()) {
     const Vec3& p = mesh.points[senseless];
     throw InputError(fmt::format("the size field is not positive at ({}, {}, {})", p.x, p.y, p.z));
   }
-  ImposedSizes imposed;
-  if (bounds.hgradreq || bounds.surface_imposes)
-    imposed = {required_sizes(mesh, bounds.surface_imposes),
-               bounds.hgradreq.value_or(std::numeric_limits<double>::infinity())};
+  const ImposedSizes imposed = imposed_on(mesh, bounds);
   const bool vary = bounds.hmin < bounds.hmax || !bounds.local.empty();
   if (!imposed.sizes.empty() || (vary && std::isfinite(bounds.hgrad)))
     limit_gradation(mesh, bounds.hgrad, imposed);
+}
+
+void lower_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>& size,
+                        const SizeBounds& bounds) {
+  const VertexBounds at = bounds_of_vertices(mesh, bounds.hmin, bounds.hmax, bounds.local);
+  const std::vector<float> before = mesh.sizes;
+  parallel_for(mesh.points.size(), [&](std::size_t v) {
+    if (!(mesh.vertex_tags[v] & tag::kSurface)) return;
+    const double h = std::min(double(at.hmax[v]), size(mesh.anchors[v]));
+    mesh.sizes[v] = std::min(before[v], float(bounded(h, at.hmin[v], bounds)));
+  });
+  limit_gradation_of_lowered(mesh, bounds.hgrad, before, imposed_on(mesh, bounds));
 }
 
 }  // namespace cavea

@@ -42,4 +42,9 @@ SizeRange wished_range(const TetMesh& mesh, const SizeField& field);
 void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>& curvature_size,
                       const SizeField& field, const SizeBounds& bounds);
 
+/// Lowers mesh.sizes to `size` of surface vertices, by anchor, within the bounds, and around them
+/// to what the gradation asks for; no other size changes. \pre no holes
+void lower_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>& size,
+                        const SizeBounds& bounds);
+
 }  // namespace cavea

@@ -136,7 +136,7 @@ std::vector<Phase> poor_recipe(const ResolvedOptions& o) {
 }
 
 std::vector<Phase> recipe(const ResolvedOptions& o, Seeds seeds) {
-  if (seeds == Seeds::kNone) return {rough(o), fine(o), polish(o)};
+  if (seeds == Seeds::kAbsent) return {rough(o), fine(o), polish(o)};
   Phase first = fine(o);
   if (seeds == Seeds::kMost) first.cycle.first_slack = kEvenedOut;
   first.ask = 0;  // all are asked, but those that are trusted

@@ -265,7 +265,7 @@ class Run {
 
   /// Brings the mesh near the wanted sizes by what needs no search for where to put vertices.
   Seeds fill() {
-    if (r_.freeze.insert) return Seeds::kNone;
+    if (r_.freeze.insert) return Seeds::kAbsent;
     constexpr double kFew = 0.05, kMost = 0.5;  // of all vertices
     const bool needles = report_.before.quality.mean < kOfNeedles;
     std::optional<TetMesh> before;
@@ -286,7 +286,7 @@ class Run {
     // Too thin for seeds: a fine surface around what is coarse inside is then hard to mend.
     mesh_ = *std::move(before);
     timed("bulk", [&] { refine(BulkEdges::kAll); });
-    return Seeds::kNone;
+    return Seeds::kAbsent;
   }
 
   /// Whether the input is what is asked for, but for places: then those alone are asked, so that
@@ -486,9 +486,7 @@ class Run {
     const auto on_surface = [&](const Anchor& a) {
       return a.facet == kNone ? kEndless : in_spots(surface_->at(a));
     };
-    set_wanted_sizes(mesh_, on_surface, {}, size_bounds(std::min(r_.hmin, finest)));
-    parallel_for(kept.size(),
-                 [&](std::size_t v) { mesh_.sizes[v] = std::min(mesh_.sizes[v], kept[v]); });
+    lower_wanted_sizes(mesh_, on_surface, size_bounds(std::min(r_.hmin, finest)));
     ask_nothing(mesh_);
     ask_changed_lengths(mesh_, kept);
   }

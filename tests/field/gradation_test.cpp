@@ -66,6 +66,32 @@ TEST(Gradation, WithoutBoundChangesNothing) {
   EXPECT_EQ(mesh.sizes, before);
 }
 
+TEST(Gradation, OfLoweredSizesIsThatOfAll) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    TetMesh mesh = random_sizes(seed);
+    limit_gradation(mesh, 1.3);
+    const std::vector<float> before = mesh.sizes;
+    Random random(seed);
+    for (float& size : mesh.sizes)
+      if (random.unit() < 0.05) size *= float(random.between(0.2, 1));
+    TetMesh anew = mesh;
+    limit_gradation(anew, 1.3);
+    limit_gradation_of_lowered(mesh, 1.3, before);
+    for (std::size_t v = 0; v < before.size(); ++v) {
+      EXPECT_NEAR(mesh.sizes[v], anew.sizes[v], kFloat);
+      EXPECT_LE(mesh.sizes[v], before[v]);
+    }
+  }
+}
+
+TEST(Gradation, OfLoweredSizesLeavesWhatIsSteepElsewhere) {
+  TetMesh mesh = random_sizes(1);
+  const std::vector<float> before = mesh.sizes;
+  limit_gradation_of_lowered(mesh, 1.3, before);
+  EXPECT_EQ(mesh.sizes, before);
+}
+
 ImposedSizes impose_some(const TetMesh& mesh, std::uint64_t seed) {
   Random random(seed);
   ImposedSizes imposed{std::vector<float>(mesh.points.size(), 0), 2.3};
