@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "cavea/base/cancel.h"
 #include "cavea/base/error.h"
@@ -93,19 +94,17 @@ class Run {
     timed("analysis", [&] { analyse(); });
     mends_ = ask_if_it_stands();
     const bool filled = !mends_ && fill();
-    const std::vector<Phase> phases = mends_ ? standing_recipe(r_) : recipe(r_, filled);
-    for (const Phase& phase : phases) {
-      forget_interfaces(mesh_);
-      timed(phase.name, [&] { run_phase(phase); });
-    }
-    timed("residual", [&] { run_residual_of(phases.back()); });
-    mend_poor();
-    finish();
-    timed("measurement", [&] { distance_ = measure_distance(); });
-    repair_where_far();
-    timed("statistics", [&] { measure(); });
-    if (options_.directions) report_.directions = surface_directions(mesh_, *surface_);
-    report_.peak_resident_bytes = peak_resident_bytes();
+    adapt(mends_ ? standing_recipe(r_) : recipe(r_, filled));
+  }
+
+  /// From the sizes of this run to those wanted.
+  void coarsen() {
+    finer_ = 1;
+    resize();
+    ask_all(mesh_);
+    std::vector<Phase> phases = recipe(r_, true);
+    phases.insert(phases.begin(), thinning(r_));
+    adapt(phases);
   }
 
   /// Whether the input is what is asked for, but for places; nothing else is done.
@@ -113,6 +112,11 @@ class Run {
     analyse();
     return ask_if_it_stands();
   }
+
+  bool only_mends() const { return mends_; }
+
+  /// Whether the input may be a result for which the sizes were made finer.
+  bool made_room() const { return made_room_; }
 
   /// Whether the input was as good as the result: it is then better left as it is.
   bool in_vain() const {
@@ -129,6 +133,22 @@ class Run {
   Report report_;
 
  private:
+  /// All that comes after the mesh is about as fine as wanted.
+  void adapt(const std::vector<Phase>& phases) {
+    for (const Phase& phase : phases) {
+      forget_interfaces(mesh_);
+      timed(phase.name, [&] { run_phase(phase); });
+    }
+    timed("residual", [&] { run_residual_of(phases.back()); });
+    mend_poor();
+    finish();
+    timed("measurement", [&] { distance_ = measure_distance(); });
+    repair_where_far();
+    timed("statistics", [&] { measure(); });
+    if (options_.directions) report_.directions = surface_directions(mesh_, *surface_);
+    report_.peak_resident_bytes = peak_resident_bytes();
+  }
+
   template <class F>
   void timed(const char* name, F&& f) {
     Timer timer;
@@ -309,9 +329,20 @@ class Run {
            (none_is_poor(report_.before) || few_are_poor(mesh_));
   }
 
-  bool is_near() const {
+  bool is_near() {
     constexpr double kLeastFiner = 0.8;  // what is finer yet asks for the next scale
-    return finer_ >= kLeastFiner && is_nearly_result(report_.before, options_);
+    const LengthStatistics in_curved = lengths_in_curved_sizes();
+    made_room_ = may_have_made_room(report_.before, in_curved, options_);
+    return finer_ >= kLeastFiner && is_nearly_result(report_.before, in_curved, options_);
+  }
+
+  LengthStatistics lengths_in_curved_sizes() {
+    const std::vector<float> sizes = mesh_.sizes;
+    set_wanted_sizes(
+        mesh_, [&](const Anchor& a) { return surface_->curved_size(a); }, {}, size_bounds(r_.hmin));
+    const LengthStatistics lengths = length_statistics(mesh_);
+    mesh_.sizes = sizes;
+    return lengths;
   }
 
   /// Phases end when little of the whole changes: what is poor then may be little of it, and is
@@ -510,6 +541,7 @@ class Run {
   }
 
   void set_targets() {
+    report_.targets.clear();
     const QualityStatistics& q = report_.after.quality;
     const LengthStatistics& l = report_.after.lengths;
     auto add = [&](const char* name, double wanted, double measured, bool met, const Vec3& at) {
@@ -541,6 +573,7 @@ class Run {
       false;            ///< the input has the surface and number of tets wanted, operators are free
   bool mends_ = false;  ///< only poor tets are asked
   std::int64_t poor_ = 0;  ///< so many
+  bool made_room_ = false;
   std::vector<Crossing> crossings_;
   ResolvedOptions r_;
   bool sizes_vary_ = true;  ///< over space, so that new vertices want theirs set anew
@@ -557,67 +590,118 @@ class Run {
 struct Result {
   TetMesh mesh;
   Report report;
-
-  /// What was tried before took its time, too.
-  void add_before(const std::vector<PhaseTime>& phases) {
-    report.phases.insert(report.phases.begin(), phases.begin(), phases.end());
-  }
 };
 
-/// A run, and where the input turns out to be as good as its result another one that only mends it,
-/// or leaves it if that does not help.
-Result run_once(const TetMesh& input, const SizeField& field, const Options& options, double finer,
-                Effort effort = Effort::kWhereNeeded) {
-  std::optional<Run> run;
-  std::vector<PhaseTime> in_vain;
-  auto run_with = [&](Effort e) {
-    if (run) std::ranges::move(run->report_.phases, std::back_inserter(in_vain));
-    run.emplace(input, field, options, e, finer);
-    (*run)();
-  };
-  run_with(effort);
-  if (run->in_vain()) run_with(Effort::kMend);
-  if (run->mended_in_vain()) run_with(Effort::kLeave);
-  Result result{std::move(run->mesh_), std::move(run->report_)};
-  result.add_before(in_vain);
-  return result;
-}
+/// Runs on one input until the result has room for its elements.
+class Trials {
+ public:
+  Trials(const TetMesh& input, const SizeField& field, const Options& options)
+      : input_(input), field_(field), options_(options) {}
 
-/// Where elements have no room, smaller ones, if that helps: those that the input has already, or
-/// else the largest ones.
-Result run_with_room(const TetMesh& input, const SizeField& field, const Options& options) {
-  Result best = run_once(input, field, options, 1);
-  const auto room = [&](const Result& result) {
-    return room_in(result.report.after, options, bool(field));
-  };
-  // \return whether it helps
-  const auto try_run = [&](double finer, Effort effort) {
-    Result result = run_once(input, field, options, finer, effort);
-    // What only mends may leave tets as they are that a run would have made better.
-    const bool as_good =
-        effort != Effort::kMend || !worst_has_risen(result.report.after, best.report.after);
-    const bool helps = room(result) != Room::kMissing && as_good;
-    if (helps) std::swap(best, result);
-    best.add_before(result.report.phases);
-    return helps;
-  };
-  switch (room(best)) {
-    case Room::kEnough:
-      break;
-    case Room::kLittle:
-      // A little room is found by one run and missed by the next: what the input has decides, but
-      // where it is much finer, the caller wants other sizes.
-      if (has_the_quality_of_results(best.report.before.quality, false) &&
-          Run(input, field, options, Effort::kWhereNeeded, kFinerSizes[0]).stands())
-        try_run(kFinerSizes[0], Effort::kWhereNeeded);
-      break;
-    case Room::kMissing:
-      if (may_have_made_room(best.report.before, options) && try_run(1, Effort::kMend)) break;
-      for (const double finer : kFinerSizes)
-        if (try_run(finer, Effort::kWhereNeeded)) break;
+  Result operator()() {
+    const std::unique_ptr<Run> first = run_once(1);
+    best_ = take(*first);
+    switch (room(best_)) {
+      case Room::kEnough:
+        break;
+      case Room::kLittle:
+        if (is_input_made_finer()) try_finer(kFinerSizes[0]);
+        break;
+      case Room::kMissing:
+        if (first->made_room() && try_mended()) break;
+        if (try_finer_and_back(kFinerSizes[0])) break;
+        for (std::size_t i = 1; i < std::size(kFinerSizes); ++i)
+          if (try_finer(kFinerSizes[i])) break;
+    }
+    best_.report.phases = std::move(phases_);
+    return std::move(best_);
   }
-  return best;
-}
+
+ private:
+  /// A run, and where the input turns out to be as good as its result another one that only mends
+  /// it, or leaves it if that does not help.
+  std::unique_ptr<Run> run_once(double finer, Effort effort = Effort::kWhereNeeded) {
+    std::unique_ptr<Run> run;
+    const auto run_with = [&](Effort e) {
+      run = std::make_unique<Run>(input_, field_, options_, e, finer);
+      (*run)();
+      keep_phases(*run);
+    };
+    run_with(effort);
+    if (run->in_vain()) run_with(Effort::kMend);
+    if (run->mended_in_vain()) run_with(Effort::kLeave);
+    return run;
+  }
+
+  /// What was tried took its time, too.
+  void keep_phases(Run& run) {
+    std::ranges::move(run.report_.phases, std::back_inserter(phases_));
+    run.report_.phases.clear();
+  }
+
+  static Result take(Run& run) { return {std::move(run.mesh_), std::move(run.report_)}; }
+
+  Room room(const Result& result) const {
+    return room_in(result.report.after, options_, bool(field_));
+  }
+
+  /// A little room is found by one run and missed by the next: what the input has decides, but
+  /// where it is much finer, the caller wants other sizes.
+  bool is_input_made_finer() const {
+    return has_the_quality_of_results(best_.report.before.quality, false) &&
+           Run(input_, field_, options_, Effort::kWhereNeeded, kFinerSizes[0]).stands();
+  }
+
+  bool gained(const Result& result) const {
+    return !gained_nothing(best_.report.after, result.report.after, options_);
+  }
+
+  bool is_worst_worse(const Result& result) const {
+    return worst_has_risen(result.report.after, best_.report.after);
+  }
+
+  /// What only mends may leave tets as they are that a run would have made better.
+  bool try_mended() {
+    Result result = take(*run_once(1, Effort::kMend));
+    if (room(result) == Room::kMissing || is_worst_worse(result)) return false;
+    std::swap(best_, result);
+    return true;
+  }
+
+  bool try_finer(double finer) { return offer(take(*run_once(finer))); }
+
+  /// Strips between features that are about as wide as the sizes are filled by a row of triangles
+  /// or by two, and operators do not get from one to the other. Collapses out of a finer mesh find
+  /// what splits have missed.
+  bool try_finer_and_back(double finer) {
+    const bool may_grow = is_coarse_mesh(best_.report.after);
+    const std::unique_ptr<Run> run = run_once(finer);
+    if (run->only_mends()) return offer(take(*run));
+    Result there{copy_of(run->mesh_), run->report_};
+    run->coarsen();
+    keep_phases(*run);
+    Result back = take(*run);
+    back.report.before = best_.report.before;
+    if ((has_room(back.report.after) || gained(back)) && !is_worst_worse(back))
+      std::swap(best_, back);
+    return room(best_) != Room::kMissing || !may_grow || offer(std::move(there));
+  }
+
+  /// \return whether no finer one need be tried
+  bool offer(Result&& result) {
+    const MeshSummary& now = result.report.after;
+    // What has become too large to be made finer yet may lack room all the same.
+    const bool enough = has_room(now) || !is_coarse_mesh(now);
+    if (has_room(now) || (enough && gained(result))) best_ = std::move(result);
+    return enough;
+  }
+
+  const TetMesh& input_;
+  const SizeField& field_;
+  const Options& options_;
+  Result best_;
+  std::vector<PhaseTime> phases_;
+};
 
 }  // namespace
 
@@ -628,7 +712,7 @@ Report remesh(TetMesh& mesh, const SizeField& field, const Options& options) {
   const Timer timer;
   Report report;
   run_in_arena(threads, [&] {
-    Result result = run_with_room(mesh, field, options);
+    Result result = Trials(mesh, field, options)();
     report = std::move(result.report);
     mesh = std::move(result.mesh);
   });

@@ -1,4 +1,6 @@
 // Where elements of the sizes asked for have no room, smaller ones are made.
+#include <algorithm>
+
 #include "remesh/support.h"
 
 namespace cavea::test {
@@ -19,6 +21,36 @@ TEST(Room, IsMadeInNarrowBodies) {
   EXPECT_GE(report.finer, 0.5);
   EXPECT_GE(report.after.quality.mean, 0.78);
   EXPECT_TRUE(report.targets_met());
+}
+
+/// A prism whose two long sides meet at 5 degrees.
+MeshData blade() {
+  MeshData data = kuhn_cube(6);
+  std::erase_if(data.tets, [&](const auto& t) {
+    double x_less_y = 0;
+    for (const int v : t) x_less_y += data.vertices[v].x - data.vertices[v].y;
+    return x_less_y < 0;
+  });
+  data.tet_refs.resize(data.tets.size());
+  for (Vec3& p : data.vertices) p = {p.x, p.y * 0.087, p.z / 2};
+  return data;
+}
+
+// Splits fill the octants of a ball, and a blade, in ways that leave elements no room, and the same
+// sizes have it when they are reached from finer ones.
+TEST(Room, IsFoundFromFinerSizes) {
+  MeshData octants_of_ball = ball(8);
+  set_refs(octants_of_ball,
+           [](const Vec3& c) { return 1 + (c.x > 0) + 2 * (c.y > 0) + 4 * (c.z > 0); });
+  for (const MeshData& body : {octants_of_ball, blade()}) {
+    TetMesh mesh = built(body);
+    const Report report = remesh(mesh, {}, {});
+    expect_sound(mesh);
+    EXPECT_EQ(report.finer, 1);
+    EXPECT_GE(report.after.quality.mean, 0.78);
+    const auto of_distance = [](const Target& t) { return t.name == "surface distance"; };
+    EXPECT_EQ(std::ranges::count_if(report.targets, of_distance), 1);
+  }
 }
 
 TEST(Room, IsNotMadeWhereThereIsSome) {
