@@ -404,7 +404,8 @@ class Run {
     settings.cancel = options_.cancel;
     PartSize size{options_.tets_per_part};
     if (phase.one_part > 0) size.one_part = phase.one_part;
-    for (std::uint8_t& flags : mesh_.tet_flags) flags |= phase.ask;
+    if (phase.ask > 0) ask_all(mesh_, phase.ask);
+    if (phase.ask_below > 0) ask_below(mesh_, phase.ask_below);
     for (int round = 1; round <= phase.rounds || more_for_budget(phase, round); ++round) {
       tell(phase.name, round);
       refuse_too_large(mesh_, most_bytes_);

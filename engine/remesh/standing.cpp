@@ -24,9 +24,6 @@ constexpr double kConformGain = 2.5;
 /// The same for the worst quality, which is that of a single tet.
 constexpr double kWorstGain = 0.05;
 
-/// Results have no worse tets where the domain does not force them.
-constexpr double kPoorQuality = 0.4;
-
 /// Lengths that no result has where operators were free. Within these bounds a result is also in
 /// the sizes that follow from its own surface, which is not quite that of the input.
 constexpr double kTooLong = 2.6, kTooShort = 0.3;
@@ -171,8 +168,14 @@ bool few_are_poor(const TetMesh& mesh) {
   return double(count_poor(mesh)) <= kFew * double(mesh.tets.size());
 }
 
-void ask_all(TetMesh& mesh) {
-  for (std::uint8_t& flags : mesh.tet_flags) flags |= tet_flag::kAskAll;
+void ask_all(TetMesh& mesh, std::uint8_t what) {
+  for (std::uint8_t& flags : mesh.tet_flags) flags |= what;
+}
+
+void ask_below(TetMesh& mesh, double quality) {
+  parallel_for(mesh.tets.size(), [&](std::size_t t) {
+    if (mesh.qualities[t] < quality) mesh.tet_flags[t] |= tet_flag::kAskAll;
+  });
 }
 
 void ask_nothing(TetMesh& mesh) {

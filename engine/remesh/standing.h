@@ -9,6 +9,9 @@
 
 namespace cavea {
 
+/// Results have no worse tets where the domain does not force them.
+inline constexpr double kPoorQuality = 0.4;
+
 /// Whether the mean quality is what runs reach on bodies that are nowhere thin.
 bool has_the_quality_of_results(const QualityStatistics& now, bool uniform);
 
@@ -65,8 +68,11 @@ bool none_is_poor(const MeshSummary& now);
 /// Whether so few are poor that they may be mended one by one.
 bool few_are_poor(const TetMesh& mesh);
 
-/// All tets are asked everything.
-void ask_all(TetMesh& mesh);
+/// All tets are asked everything, or `what` of it.
+void ask_all(TetMesh& mesh, std::uint8_t what = tet_flag::kAskAll);
+
+/// Tets of a lower quality are asked everything.
+void ask_below(TetMesh& mesh, double quality);
 
 /// No tet is asked any more.
 void ask_nothing(TetMesh& mesh);
