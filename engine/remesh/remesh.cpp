@@ -60,9 +60,6 @@ constexpr double kFinerSizes[] = {0.8, 0.64, kFinestRoom};
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-/// Worse tets are named in the report: where the domain allows, operators end above.
-constexpr double kSoundQuality = 0.3;
-
 /// A mesh is only mended in places if all but a few of its tets are as good as those of results, or
 /// in any case; or not even that.
 enum class Effort { kWhereNeeded, kMend, kLeave };
@@ -521,8 +518,8 @@ class Run {
       report_.after = report_.before;
     report_.interface_quality = interface_quality(mesh_);
     report_.verdicts = counts_of(verdicts_);
-    report_.stubborn = find_stubborn(mesh_, working_surface(), last_phase(r_).cycle,
-                                     std::max(kSoundQuality, options_.min_quality));
+    report_.stubborn =
+        find_stubborn(mesh_, working_surface(), last_phase(r_).cycle, options_.min_quality);
     report_.finer = finer_;
     report_.hausd = r_.hausd, report_.hmin = r_.hmin, report_.hmax = r_.hmax,
     report_.hgrad = r_.hgrad;
