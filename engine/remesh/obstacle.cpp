@@ -13,9 +13,11 @@ namespace {
 
 /// A tet with a smaller dihedral angle, in degrees, has at most a quality of 0.3.
 constexpr double kSmallAngle = 13;
-/// A tet on a triangle with a smaller angle has at most a quality of 0.4, and less where its
+/// A tet on a triangle with a smaller angle has at most a quality of 0.35, and less where its
 /// neighbours must share that angle.
-constexpr double kSmallFaceAngle = 14;
+constexpr double kSmallFaceAngle = 12;
+/// The same, 0.4: a reason where there is no other.
+constexpr double kRatherSmallFaceAngle = 14;
 /// An edge between feature curves that is shorter than this, in wanted lengths, cannot be
 /// collapsed, and its tets are needles.
 constexpr double kNarrow = 0.3;
@@ -214,8 +216,9 @@ bool is_between_walls(OperatorContext& c, TetId t, const Width& width) {
 std::string obstacle_at(OperatorContext& c, TetId t) {
   if (const double angle = sharpest_wedge(c, t); angle < kSmallAngle)
     return fmt::format("the surface meets itself at {:.3g} degrees", angle);
-  if (const double angle = sharpest_tip(c, t); angle < kSmallFaceAngle)
-    return fmt::format("feature curves meet at {:.3g} degrees", angle);
+  const double tip = sharpest_tip(c, t);
+  const auto of_tip = [&] { return fmt::format("feature curves meet at {:.3g} degrees", tip); };
+  if (tip < kSmallFaceAngle) return of_tip();
   if (const double angle = narrowest_point(c, t); angle < kSmallTip)
     return fmt::format("the domain ends in a tip of {:.3g} degrees", angle);
   if (const Bridge b = shortest_bridge(c, t); b.in_sizes < kNarrow || b.of_longest < kNeedle)
@@ -231,7 +234,7 @@ std::string obstacle_at(OperatorContext& c, TetId t) {
   if (width.thickness < c.limits.short_edge * size && is_between_walls(c, t, width))
     return fmt::format("the wall is {:.3g} thick, {:.2g} of the wanted length", width.thickness,
                        width.thickness / size);
-  return "";
+  return tip < kRatherSmallFaceAngle ? of_tip() : "";
 }
 
 /// A tet and poor ones around it, each of which has a vertex in common with one before.

@@ -654,6 +654,10 @@ class Trials {
     return !gained_nothing(best_.report.after, result.report.after, options_);
   }
 
+  static bool is_sound(const Result& result) {
+    return result.report.after.quality.worst >= kSoundQuality;
+  }
+
   bool is_worst_worse(const Result& result) const {
     return worst_has_risen(result.report.after, best_.report.after);
   }
@@ -680,7 +684,8 @@ class Trials {
     keep_phases(*run);
     Result back = take(*run);
     back.report.before = best_.report.before;
-    if ((has_room(back.report.after) || gained(back)) && !is_worst_worse(back))
+    const bool as_sound = is_sound(back) || !is_sound(there);
+    if ((has_room(back.report.after) || gained(back)) && as_sound && !is_worst_worse(back))
       std::swap(best_, back);
     return room(best_) != Room::kMissing || !may_grow || offer(std::move(there));
   }
