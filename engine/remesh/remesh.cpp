@@ -94,9 +94,9 @@ class Run {
     adapt(mends_ ? standing_recipe(r_) : recipe(r_, filled));
   }
 
-  /// From the sizes of this run to those wanted.
-  void coarsen() {
-    finer_ = 1;
+  /// From the sizes of this run to larger ones.
+  void coarsen(double finer) {
+    finer_ = finer;
     resize();
     ask_all(mesh_);
     std::vector<Phase> phases = recipe(r_, true);
@@ -607,9 +607,8 @@ class Trials {
         break;
       case Room::kMissing:
         if (first->made_room() && try_mended()) break;
-        if (try_finer_and_back(kFinerSizes[0])) break;
-        for (std::size_t i = 1; i < std::size(kFinerSizes); ++i)
-          if (try_finer(kFinerSizes[i])) break;
+        for (std::size_t i = 0; i < std::size(kFinerSizes); ++i)
+          if (try_finer_and_back(kFinerSizes[i], i == 0 ? 1 : kFinerSizes[i - 1])) break;
     }
     best_.report.phases = std::move(phases_);
     return std::move(best_);
@@ -651,7 +650,8 @@ class Trials {
   }
 
   bool gained(const Result& result) const {
-    return !gained_nothing(best_.report.after, result.report.after, options_);
+    const MeshSummary &before = best_.report.after, &now = result.report.after;
+    return now.quality.mean > before.quality.mean && !gained_nothing(before, now, options_);
   }
 
   static bool is_sound(const Result& result) {
@@ -675,12 +675,13 @@ class Trials {
   /// Strips between features that are about as wide as the sizes are filled by a row of triangles
   /// or by two, and operators do not get from one to the other. Collapses out of a finer mesh find
   /// what splits have missed.
-  bool try_finer_and_back(double finer) {
+  /// \return whether no finer one need be tried
+  bool try_finer_and_back(double finer, double back_to) {
     const bool may_grow = is_coarse_mesh(best_.report.after);
     const std::unique_ptr<Run> run = run_once(finer);
     if (run->only_mends()) return offer(take(*run));
     Result there{copy_of(run->mesh_), run->report_};
-    run->coarsen();
+    run->coarsen(back_to);
     keep_phases(*run);
     Result back = take(*run);
     back.report.before = best_.report.before;
@@ -690,7 +691,6 @@ class Trials {
     return room(best_) != Room::kMissing || !may_grow || offer(std::move(there));
   }
 
-  /// \return whether no finer one need be tried
   bool offer(Result&& result) {
     const MeshSummary& now = result.report.after;
     // What has become too large to be made finer yet may lack room all the same.

@@ -53,6 +53,30 @@ TEST(Room, IsFoundFromFinerSizes) {
   }
 }
 
+/// A cube with a pyramid on each side.
+MeshData star() {
+  MeshData data;
+  data.vertices = {{-1, -1, -1}, {-1, 1, -1}, {0, 0, -4}, {1, 1, -1}, {1, -1, -1},
+                   {4, 0, 0},    {1, -1, 1},  {1, 1, 1},  {0, 0, 4},  {-1, -1, 1},
+                   {-1, 1, 1},   {-4, 0, 0},  {0, 4, 0},  {0, -4, 0}};
+  data.tets = {{6, 13, 0, 4}, {7, 5, 6, 3},  {0, 10, 11, 9}, {10, 0, 11, 1}, {3, 0, 2, 4},
+               {0, 9, 13, 6}, {8, 9, 10, 7}, {9, 8, 6, 7},   {0, 3, 2, 1},   {1, 7, 12, 10},
+               {7, 1, 12, 3}, {3, 5, 6, 4},  {0, 1, 7, 3},   {0, 10, 9, 7},  {0, 1, 10, 7},
+               {6, 0, 9, 7},  {7, 6, 0, 3},  {3, 6, 0, 4}};
+  data.vertex_refs.assign(data.vertices.size(), 0);
+  data.tet_refs.assign(data.tets.size(), 1);
+  return data;
+}
+
+// Sizes of 0.8 leave it no room, but where they are reached from 0.64.
+TEST(Room, IsMadeByNoFinerSizesThanItTakes) {
+  TetMesh mesh = built(star());
+  const Report report = remesh(mesh, {}, {});
+  expect_sound(mesh);
+  EXPECT_EQ(report.finer, 0.8);
+  EXPECT_GE(report.after.quality.mean, 0.78);
+}
+
 TEST(Room, IsNotMadeWhereThereIsSome) {
   TetMesh mesh = built(kuhn_cube(4));
   EXPECT_EQ(remesh(mesh, {}, {}).finer, 1);
