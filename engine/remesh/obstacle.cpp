@@ -16,12 +16,17 @@ constexpr double kSmallAngle = 13;
 /// A tet on a triangle with a smaller angle has at most a quality of 0.35, and less where its
 /// neighbours must share that angle.
 constexpr double kSmallFaceAngle = 12;
+/// The same, 0.4: a reason where there is no other.
+constexpr double kRatherSmallFaceAngle = 14;
 /// An edge between feature curves that is shorter than this, in wanted lengths, cannot be
 /// collapsed, and its tets are needles.
 constexpr double kNarrow = 0.3;
 /// The same where it is shorter than this share of the longest edge of its tet: if all others are
 /// alike, the quality is at most 0.3.
 constexpr double kNeedle = 0.2;
+/// Vertices on feature curves stay on them.
+constexpr Tag kOnCurve =
+    tag::kCorner | tag::kRidge | tag::kReferenceEdge | tag::kNonManifold | tag::kRequired;
 /// If all edges at a vertex are within this angle of each other, in degrees, its tets have at most
 /// a quality of 0.3: that of three edges of one length and 18.5 degrees apart.
 constexpr double kSmallTip = 18.5;
@@ -113,8 +118,6 @@ struct Bridge {
 };
 
 Bridge shortest_bridge(OperatorContext& c, TetId t) {
-  constexpr Tag kOnCurve =
-      tag::kCorner | tag::kRidge | tag::kReferenceEdge | tag::kNonManifold | tag::kRequired;
   Bridge shortest;
   double longest = 0;
   for (const auto& e : kEdgeVertices) {
@@ -127,6 +130,38 @@ Bridge shortest_bridge(OperatorContext& c, TetId t) {
   }
   if (longest > 0 && shortest.length > 0) shortest.of_longest = shortest.length / longest;
   return shortest;
+}
+
+/// Triangles between feature curves have no other vertices than theirs: the least height of those
+/// at the vertices of tet t over an edge of a curve, also over the wanted length there.
+struct Strip {
+  double width = 0, in_sizes = std::numeric_limits<double>::infinity();
+
+  void add(const OperatorContext& c, const Triangle& s) {
+    double base = 0, size = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      size += c.mesh.sizes[s.v[k]] / 3;
+      if (s.edge_tag[k] & tag::kFeature)
+        base = std::max(base, distance(c.point(s.v[(k + 1) % 3]), c.point(s.v[(k + 2) % 3])));
+    }
+    const Vec3 p = c.point(s.v[0]);
+    const double area2 = norm(cross(c.point(s.v[1]) - p, c.point(s.v[2]) - p));
+    if (area2 < in_sizes * size * base) width = area2 / base, in_sizes = width / size;
+  }
+};
+
+Strip narrowest_strip(OperatorContext& c, TetId t) {
+  Strip narrowest;
+  for (const VertexId v : c.mesh.tets[t]) {
+    if (!(c.tags(v) & kOnCurve)) continue;
+    gather_ball(c.mesh, v, c.marker, c.ball);
+    for_each_triangle(c.mesh, c.ball, [&](TriangleId id) {
+      const Triangle& s = c.mesh.triangles[id];
+      if (std::ranges::all_of(s.v, [&](VertexId w) { return (c.tags(w) & kOnCurve) != 0; }))
+        narrowest.add(c, s);
+    });
+  }
+  return narrowest;
 }
 
 /// The direction in which a tet is thinnest, and how thin it is.
@@ -181,20 +216,25 @@ bool is_between_walls(OperatorContext& c, TetId t, const Width& width) {
 std::string obstacle_at(OperatorContext& c, TetId t) {
   if (const double angle = sharpest_wedge(c, t); angle < kSmallAngle)
     return fmt::format("the surface meets itself at {:.3g} degrees", angle);
-  if (const double angle = sharpest_tip(c, t); angle < kSmallFaceAngle)
-    return fmt::format("feature curves meet at {:.3g} degrees", angle);
+  const double tip = sharpest_tip(c, t);
+  const auto of_tip = [&] { return fmt::format("feature curves meet at {:.3g} degrees", tip); };
+  if (tip < kSmallFaceAngle) return of_tip();
   if (const double angle = narrowest_point(c, t); angle < kSmallTip)
     return fmt::format("the domain ends in a tip of {:.3g} degrees", angle);
   if (const Bridge b = shortest_bridge(c, t); b.in_sizes < kNarrow || b.of_longest < kNeedle)
     return fmt::format("feature curves or corners are {:.3g} apart, {:.2g} of the wanted length",
                        b.length, b.in_sizes);
+  if (const Strip s = narrowest_strip(c, t); s.in_sizes < kNarrow)
+    return fmt::format(
+        "the surface between feature curves is {:.3g} wide, {:.2g} of the wanted length", s.width,
+        s.in_sizes);
   const Width width = width_of(c.mesh.corners(t));
   double size = 0;
   for (const VertexId v : c.mesh.tets[t]) size += c.mesh.sizes[v] / 4;
   if (width.thickness < c.limits.short_edge * size && is_between_walls(c, t, width))
     return fmt::format("the wall is {:.3g} thick, {:.2g} of the wanted length", width.thickness,
                        width.thickness / size);
-  return "";
+  return tip < kRatherSmallFaceAngle ? of_tip() : "";
 }
 
 /// A tet and poor ones around it, each of which has a vertex in common with one before.

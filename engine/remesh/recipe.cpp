@@ -1,6 +1,7 @@
 #include "cavea/remesh/recipe.h"
 
 #include "cavea/geometry/metric.h"
+#include "cavea/remesh/standing.h"
 
 namespace cavea {
 namespace {
@@ -75,7 +76,7 @@ Phase polish(const ResolvedOptions& o) {
   // Nor does moving vertices of good tets, but it wakes all around.
   p.cycle.move_ceiling = 0.75;
   p.cycle.repair_below = 0.45;
-  p.cycle.reconnect_below = 0.5;
+  p.cycle.reconnect_below = p.ask_below = 0.5;
   p.resize = false;
   return p;
 }
@@ -112,6 +113,7 @@ std::vector<Phase> mending_recipe(const ResolvedOptions& o) {
   adapt.resize = false;  // lest all be asked for sizes that are a little other
   adapt.cycle.shake_below = 0;
   finish.rounds = 1;
+  finish.ask_below = 0;  // what was not asked is as good as it gets
   // What is asked is little of the whole, and is to be mended to the end.
   for (Phase* p : {&adapt, &finish}) p->settled = p->cycle.settled = 0;
   return {adapt, finish};
@@ -131,6 +133,7 @@ std::vector<Phase> poor_recipe(const ResolvedOptions& o) {
   loose.settled = loose.cycle.settled = 0;
   loose.cycle.repair_below = 0.2;
   std::vector<Phase> phases = mending_recipe(o);
+  for (Phase& p : phases) p.ask_below = kPoorQuality;
   phases.insert(phases.begin(), loose);
   return phases;
 }

@@ -17,6 +17,8 @@ struct Phase {
   double growth = 0;
   /// Asked of all tets again at the start, because this phase's limits differ from those before.
   std::uint8_t ask = 0;
+  /// The same of tets of a lower quality, to which this phase offers more than those before.
+  double ask_below = 0;
   /// A mesh of fewer tets is one part; 0: as run_round() has it.
   std::int64_t one_part = 0;
   bool resize = true;  ///< sets the wanted sizes anew before each round

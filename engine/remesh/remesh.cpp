@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "cavea/base/cancel.h"
 #include "cavea/base/error.h"
@@ -60,9 +61,6 @@ constexpr double kFinerSizes[] = {0.8, 0.64, kFinestRoom};
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-/// Worse tets are named in the report: where the domain allows, operators end above.
-constexpr double kSoundQuality = 0.3;
-
 /// A mesh is only mended in places if all but a few of its tets are as good as those of results, or
 /// in any case; or not even that.
 enum class Effort { kWhereNeeded, kMend, kLeave };
@@ -101,7 +99,54 @@ class Run {
     timed("analysis", [&] { analyse(); });
     mends_ = ask_if_it_stands();
     if (!mends_ || poor_ > 0) input_.keep(mesh_);
-    const std::vector<Phase> phases = mends_ ? standing_recipe(r_) : recipe(r_, fill());
+    adapt(mends_ ? standing_recipe(r_) : recipe(r_, fill()));
+  }
+
+  /// From the sizes of this run to larger ones.
+  void coarsen(double finer) {
+    finer_ = finer;
+    resize();
+    ask_all(mesh_);
+    std::vector<Phase> phases = recipe(r_, Seeds::kSome);
+    phases.insert(phases.begin(), thinning(r_));
+    adapt(phases);
+  }
+
+  /// Whether the input is what is asked for, but for places; nothing else is done.
+  bool stands() {
+    analyse();
+    return ask_if_it_stands();
+  }
+
+  bool only_mends() const { return mends_; }
+
+  /// Whether the input may be a result for which the sizes were made finer.
+  bool made_room() const { return made_room_; }
+
+  /// Whether the input was as good as the result: it is then better left as it is.
+  bool in_vain() const {
+    return may_mend_ && !mends_ && gained_nothing(report_.before, report_.after, options_);
+  }
+
+  /// Whether poor tets were asked, and stayed so: others in their places are no better.
+  bool mended_in_vain() const {
+    return poor_ > 0 && double(count_poor(mesh_)) > kMended * double(poor_) &&
+           gained_nothing(report_.before, report_.after, options_);
+  }
+
+  const TetMesh& mesh() const { return mesh_; }
+
+  /// The mesh that came out: if nothing was changed, with what was lent.
+  TetMesh take_mesh() {
+    is_taken_ = true;
+    return std::move(mesh_);
+  }
+
+  Report report_;
+
+ private:
+  /// All that comes after the mesh is about as fine as wanted.
+  void adapt(const std::vector<Phase>& phases) {
     for (const Phase& phase : phases) {
       forget_interfaces(mesh_);
       timed(phase.name, [&] { run_phase(phase); });
@@ -116,32 +161,6 @@ class Run {
     report_.peak_resident_bytes = peak_resident_bytes();
   }
 
-  /// Whether the input is what is asked for, but for places; nothing else is done.
-  bool stands() {
-    analyse();
-    return ask_if_it_stands();
-  }
-
-  /// Whether the input was as good as the result: it is then better left as it is.
-  bool in_vain() const {
-    return may_mend_ && !mends_ && gained_nothing(report_.before, report_.after, options_);
-  }
-
-  /// Whether poor tets were asked, and stayed so: others in their places are no better.
-  bool mended_in_vain() const {
-    return poor_ > 0 && double(count_poor(mesh_)) > kMended * double(poor_) &&
-           gained_nothing(report_.before, report_.after, options_);
-  }
-
-  /// The mesh that came out: if nothing was changed, with what was lent.
-  TetMesh take_mesh() {
-    is_taken_ = true;
-    return std::move(mesh_);
-  }
-
-  Report report_;
-
- private:
   template <class F>
   void timed(const char* name, F&& f) {
     Timer timer;
@@ -325,9 +344,21 @@ class Run {
            (none_is_poor(report_.before) || few_are_poor(mesh_));
   }
 
-  bool is_near() const {
+  bool is_near() {
     constexpr double kLeastFiner = 0.8;  // what is finer yet asks for the next scale
-    return finer_ >= kLeastFiner && is_nearly_result(report_.before, options_);
+    if (!has_the_quality_of_results(report_.before.quality, false)) return false;
+    const LengthStatistics in_curved = lengths_in_curved_sizes();
+    made_room_ = may_have_made_room(report_.before, in_curved, options_);
+    return finer_ >= kLeastFiner && is_nearly_result(report_.before, in_curved, options_);
+  }
+
+  LengthStatistics lengths_in_curved_sizes() {
+    const std::vector<float> sizes = mesh_.sizes;
+    set_wanted_sizes(
+        mesh_, [&](const Anchor& a) { return surface_->curved_size(a); }, {}, size_bounds(r_.hmin));
+    const LengthStatistics lengths = length_statistics(mesh_);
+    mesh_.sizes = sizes;
+    return lengths;
   }
 
   /// Phases end when little of the whole changes: what is poor then may be little of it, and is
@@ -389,7 +420,8 @@ class Run {
     settings.cancel = options_.cancel;
     PartSize size{options_.tets_per_part};
     if (phase.one_part > 0) size.one_part = phase.one_part;
-    for (std::uint8_t& flags : mesh_.tet_flags) flags |= phase.ask;
+    if (phase.ask > 0) ask_all(mesh_, phase.ask);
+    if (phase.ask_below > 0) ask_below(mesh_, phase.ask_below);
     for (int round = 1; round <= phase.rounds || more_for_budget(phase, round); ++round) {
       tell(phase.name, round);
       refuse_too_large(mesh_, most_bytes_);
@@ -507,8 +539,8 @@ class Run {
       report_.after = report_.before;
     report_.interface_quality = interface_quality(mesh_);
     report_.verdicts = counts_of(verdicts_);
-    report_.stubborn = find_stubborn(mesh_, working_surface(), last_phase(r_).cycle,
-                                     std::max(kSoundQuality, options_.min_quality));
+    report_.stubborn =
+        find_stubborn(mesh_, working_surface(), last_phase(r_).cycle, options_.min_quality);
     report_.finer = finer_;
     report_.hausd = r_.hausd, report_.hmin = r_.hmin, report_.hmax = r_.hmax,
     report_.hgrad = r_.hgrad;
@@ -528,6 +560,7 @@ class Run {
   }
 
   void set_targets() {
+    report_.targets.clear();
     const QualityStatistics& q = report_.after.quality;
     const LengthStatistics& l = report_.after.lengths;
     auto add = [&](const char* name, double wanted, double measured, bool met, const Vec3& at) {
@@ -561,6 +594,7 @@ class Run {
       false;            ///< the input has the surface and number of tets wanted, operators are free
   bool mends_ = false;  ///< only poor tets are asked
   std::int64_t poor_ = 0;  ///< so many
+  bool made_room_ = false;
   std::vector<Crossing> crossings_;
   ResolvedOptions r_;
   bool sizes_vary_ = true;  ///< over space, so that new vertices want theirs set anew
@@ -577,69 +611,126 @@ class Run {
 struct Result {
   TetMesh mesh;
   Report report;
-
-  /// What was tried before took its time, too.
-  void add_before(const std::vector<PhaseTime>& phases) {
-    report.phases.insert(report.phases.begin(), phases.begin(), phases.end());
-  }
 };
 
-/// A run, and where the input turns out to be as good as its result another one that only mends it,
-/// or leaves it if that does not help.
-Result run_once(Input& input, const SizeField& field, const Options& options, double finer,
-                Effort effort = Effort::kWhereNeeded) {
-  std::optional<Run> run;
-  std::vector<PhaseTime> in_vain;
-  auto run_with = [&](Effort e) {
-    if (run) std::ranges::move(run->report_.phases, std::back_inserter(in_vain));
-    run.emplace(input, field, options, e, finer);
-    (*run)();
-  };
-  run_with(effort);
-  if (run->in_vain()) run_with(Effort::kMend);
-  if (run->mended_in_vain()) run_with(Effort::kLeave);
-  Result result{run->take_mesh(), std::move(run->report_)};
-  result.add_before(in_vain);
-  return result;
-}
+/// Runs on one input until the result has room for its elements.
+class Trials {
+ public:
+  Trials(Input& input, const SizeField& field, const Options& options)
+      : input_(input), field_(field), options_(options) {}
 
-/// Where elements have no room, smaller ones, if that helps: those that the input has already, or
-/// else the largest ones.
-Result run_with_room(Input& input, const SizeField& field, const Options& options) {
-  Result best = run_once(input, field, options, 1);
-  const auto room = [&](const Result& result) {
-    return room_in(result.report.after, options, bool(field));
-  };
-  // \return whether it helps
-  const auto try_run = [&](double finer, Effort effort) {
-    Result result = run_once(input, field, options, finer, effort);
-    // What only mends may leave tets as they are that a run would have made better.
-    const bool as_good =
-        effort != Effort::kMend || !worst_has_risen(result.report.after, best.report.after);
-    const bool helps = room(result) != Room::kMissing && as_good;
-    if (helps) std::swap(best, result);
-    best.add_before(result.report.phases);
-    return helps;
-  };
-  const Room room_of_first = room(best);
-  if (room_of_first != Room::kEnough) input.keep(best.mesh);
-  switch (room_of_first) {
-    case Room::kEnough:
-      break;
-    case Room::kLittle:
-      // A little room is found by one run and missed by the next: what the input has decides, but
-      // where it is much finer, the caller wants other sizes.
-      if (has_the_quality_of_results(best.report.before.quality, false) &&
-          Run(input, field, options, Effort::kWhereNeeded, kFinerSizes[0]).stands())
-        try_run(kFinerSizes[0], Effort::kWhereNeeded);
-      break;
-    case Room::kMissing:
-      if (may_have_made_room(best.report.before, options) && try_run(1, Effort::kMend)) break;
-      for (const double finer : kFinerSizes)
-        if (try_run(finer, Effort::kWhereNeeded)) break;
+  Result operator()() {
+    const std::unique_ptr<Run> first = run_once(1);
+    best_ = take(*first);
+    const Room room_of_first = room(best_);
+    if (room_of_first != Room::kEnough) input_.keep(best_.mesh);
+    switch (room_of_first) {
+      case Room::kEnough:
+        break;
+      case Room::kLittle:
+        if (is_input_made_finer()) try_finer(kFinerSizes[0]);
+        break;
+      case Room::kMissing:
+        if (first->made_room() && try_mended()) break;
+        for (std::size_t i = 0; i < std::size(kFinerSizes); ++i)
+          if (try_finer_and_back(kFinerSizes[i], i == 0 ? 1 : kFinerSizes[i - 1])) break;
+    }
+    best_.report.phases = std::move(phases_);
+    return std::move(best_);
   }
-  return best;
-}
+
+ private:
+  /// A run, and where the input turns out to be as good as its result another one that only mends
+  /// it, or leaves it if that does not help.
+  std::unique_ptr<Run> run_once(double finer, Effort effort = Effort::kWhereNeeded) {
+    std::unique_ptr<Run> run;
+    const auto run_with = [&](Effort e) {
+      run.reset();  // which gives back what was lent to it
+      run = std::make_unique<Run>(input_, field_, options_, e, finer);
+      (*run)();
+      keep_phases(*run);
+    };
+    run_with(effort);
+    if (run->in_vain()) run_with(Effort::kMend);
+    if (run->mended_in_vain()) run_with(Effort::kLeave);
+    return run;
+  }
+
+  /// What was tried took its time, too.
+  void keep_phases(Run& run) {
+    std::ranges::move(run.report_.phases, std::back_inserter(phases_));
+    run.report_.phases.clear();
+  }
+
+  static Result take(Run& run) { return {run.take_mesh(), std::move(run.report_)}; }
+
+  Room room(const Result& result) const {
+    return room_in(result.report.after, options_, bool(field_));
+  }
+
+  /// A little room is found by one run and missed by the next: what the input has decides, but
+  /// where it is much finer, the caller wants other sizes.
+  bool is_input_made_finer() const {
+    return has_the_quality_of_results(best_.report.before.quality, false) &&
+           Run(input_, field_, options_, Effort::kWhereNeeded, kFinerSizes[0]).stands();
+  }
+
+  bool gained(const Result& result) const {
+    const MeshSummary &before = best_.report.after, &now = result.report.after;
+    return now.quality.mean > before.quality.mean && !gained_nothing(before, now, options_);
+  }
+
+  static bool is_sound(const Result& result) {
+    return result.report.after.quality.worst >= kSoundQuality;
+  }
+
+  bool is_worst_worse(const Result& result) const {
+    return worst_has_risen(result.report.after, best_.report.after);
+  }
+
+  /// What only mends may leave tets as they are that a run would have made better.
+  bool try_mended() {
+    Result result = take(*run_once(1, Effort::kMend));
+    if (room(result) == Room::kMissing || is_worst_worse(result)) return false;
+    std::swap(best_, result);
+    return true;
+  }
+
+  bool try_finer(double finer) { return offer(take(*run_once(finer))); }
+
+  /// Strips between features that are about as wide as the sizes are filled by a row of triangles
+  /// or by two, and operators do not get from one to the other. Collapses out of a finer mesh find
+  /// what splits have missed.
+  /// \return whether no finer one need be tried
+  bool try_finer_and_back(double finer, double back_to) {
+    const bool may_grow = is_coarse_mesh(best_.report.after);
+    const std::unique_ptr<Run> run = run_once(finer);
+    if (run->only_mends()) return offer(take(*run));
+    Result there{copy_of(run->mesh()), run->report_};
+    run->coarsen(back_to);
+    keep_phases(*run);
+    Result back = take(*run);
+    back.report.before = best_.report.before;
+    const bool as_sound = is_sound(back) || !is_sound(there);
+    if ((has_room(back.report.after) || gained(back)) && as_sound && !is_worst_worse(back))
+      std::swap(best_, back);
+    return room(best_) != Room::kMissing || !may_grow || offer(std::move(there));
+  }
+
+  bool offer(Result&& result) {
+    const MeshSummary& now = result.report.after;
+    // What has become too large to be made finer yet may lack room all the same.
+    const bool enough = has_room(now) || !is_coarse_mesh(now);
+    if (has_room(now) || (enough && gained(result))) best_ = std::move(result);
+    return enough;
+  }
+
+  Input& input_;
+  const SizeField& field_;
+  const Options& options_;
+  Result best_;
+  std::vector<PhaseTime> phases_;
+};
 
 }  // namespace
 
@@ -652,7 +743,7 @@ Report remesh(TetMesh& mesh, const SizeField& field, const Options& options) {
   run_in_arena(threads, [&] {
     // A field of the caller, or the surface that he names, may look at the mesh.
     Input input(mesh, !field && !options.surface);
-    Result result = run_with_room(input, field, options);
+    Result result = Trials(input, field, options)();
     report = std::move(result.report);
     mesh = std::move(result.mesh);
   });

@@ -66,7 +66,7 @@ struct Report {
   double surface_distance = 0;  ///< two-sided, sampled, to the surface model
   double bulge = 0;  ///< largest distance of the surface model from the input's triangles
   std::vector<Target> targets;
-  /// The worst tets below a quality of 0.3 or the target, if that is higher; at most 20.
+  /// The tets below a quality of 0.3, or else the 20 worst below the target; at most 1000.
   std::vector<StubbornTet> stubborn;
   std::vector<std::string> warnings;      ///< of the input
   std::vector<std::int32_t> part_of_tet;  ///< of the last parallel round, by output tet

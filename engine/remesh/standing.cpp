@@ -24,9 +24,6 @@ constexpr double kConformGain = 2.5;
 /// The same for the worst quality, which is that of a single tet.
 constexpr double kWorstGain = 0.05;
 
-/// Results have no worse tets where the domain does not force them.
-constexpr double kPoorQuality = 0.4;
-
 /// Lengths that no result has where operators were free. Within these bounds a result is also in
 /// the sizes that follow from its own surface, which is not quite that of the input.
 constexpr double kTooLong = 2.6, kTooShort = 0.3;
@@ -64,11 +61,12 @@ std::int64_t count_tets(const TetMesh& mesh, Is&& is) {
 
 /// Whether the quality is that of results, the mean length at least `finest`, and few edges are too
 /// long.
-bool is_between(const MeshSummary& now, const Options& options, double finest) {
+bool is_between(const MeshSummary& now, const LengthStatistics& in_curved, const Options& options,
+                double finest) {
   // Smaller facets bend in narrower strips, to which smaller sizes belong where they are the truth.
   constexpr double kCoarsestFaceted = 1.4;
-  const bool coarse = options.faceted ? now.lengths.mean > kCoarsestFaceted
-                                      : now.lengths.too_long_percent() > 100 - options.min_conform;
+  const bool coarse = options.faceted ? in_curved.mean > kCoarsestFaceted
+                                      : in_curved.too_long_percent() > 100 - options.min_conform;
   return has_the_quality_of_results(now.quality, false) && now.lengths.mean >= finest && !coarse;
 }
 
@@ -112,14 +110,16 @@ bool sizes_are_given(const Options& options, bool has_field) {
          !options.size_regions.empty() || options.freeze.any_operator() || options.freeze.surface;
 }
 
-bool is_nearly_result(const MeshSummary& now, const Options& options) {
+bool is_nearly_result(const MeshSummary& now, const LengthStatistics& in_curved,
+                      const Options& options) {
   // The surface of a result asks for sizes that are smaller by up to a fifth: as seen on 70 models.
   constexpr double kFinest = 0.82;
-  return is_between(now, options, kFinest);
+  return is_between(now, in_curved, options, kFinest);
 }
 
-bool may_have_made_room(const MeshSummary& now, const Options& options) {
-  return is_between(now, options, 0.9 * kFinestRoom);
+bool may_have_made_room(const MeshSummary& now, const LengthStatistics& in_curved,
+                        const Options& options) {
+  return is_between(now, in_curved, options, 0.9 * kFinestRoom);
 }
 
 std::vector<float> own_sizes_within(const TetMesh& mesh, double largest) {
@@ -135,15 +135,24 @@ std::vector<float> own_sizes_within(const TetMesh& mesh, double largest) {
   return sizes;
 }
 
+bool has_room(const MeshSummary& after) {
+  constexpr double kRoomyMean = 0.78;   // all bodies that are nowhere narrow reach it
+  constexpr double kRoomyConform = 90;  // the usual target
+  return after.quality.mean >= kRoomyMean && after.lengths.conforming_percent() >= kRoomyConform;
+}
+
+bool is_coarse_mesh(const MeshSummary& after) {
+  constexpr std::int64_t kCoarseMesh = 50000;
+  return after.counts.tets < kCoarseMesh;
+}
+
 Room room_in(const MeshSummary& after, const Options& options, bool has_field) {
-  // All bodies that are nowhere narrow reach the first; with the second no other run misses it.
-  constexpr double kRoomyMean = 0.78, kSurelyRoomyMean = 0.82;
-  constexpr double kRoomyConform = 90;         // the usual target
-  constexpr std::int64_t kCoarseMesh = 50000;  // larger ones should not grow eightfold unasked
-  const double mean = after.quality.mean, conform = after.lengths.conforming_percent();
-  if (sizes_are_given(options, has_field) || after.counts.tets >= kCoarseMesh) return Room::kEnough;
-  if (mean < kRoomyMean || conform < kRoomyConform) return Room::kMissing;
-  return mean < kSurelyRoomyMean ? Room::kLittle : Room::kEnough;
+  constexpr double kSurelyRoomyMean = 0.82;    // no other run has less than a mean with room
+  constexpr std::int64_t kLargeMesh = 500000;  // which should not take thrice the time unasked
+  if (sizes_are_given(options, has_field) || after.counts.tets >= kLargeMesh) return Room::kEnough;
+  if (!has_room(after)) return Room::kMissing;
+  return is_coarse_mesh(after) && after.quality.mean < kSurelyRoomyMean ? Room::kLittle
+                                                                        : Room::kEnough;
 }
 
 std::int64_t count_poor(const TetMesh& mesh) {
@@ -159,8 +168,14 @@ bool few_are_poor(const TetMesh& mesh) {
   return double(count_poor(mesh)) <= kFew * double(mesh.tets.size());
 }
 
-void ask_all(TetMesh& mesh) {
-  for (std::uint8_t& flags : mesh.tet_flags) flags |= tet_flag::kAskAll;
+void ask_all(TetMesh& mesh, std::uint8_t what) {
+  for (std::uint8_t& flags : mesh.tet_flags) flags |= what;
+}
+
+void ask_below(TetMesh& mesh, double quality) {
+  parallel_for(mesh.tets.size(), [&](std::size_t t) {
+    if (mesh.qualities[t] < quality) mesh.tet_flags[t] |= tet_flag::kAskAll;
+  });
 }
 
 void ask_nothing(TetMesh& mesh) {

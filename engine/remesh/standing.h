@@ -9,6 +9,9 @@
 
 namespace cavea {
 
+/// Results have no worse tets where the domain does not force them.
+inline constexpr double kPoorQuality = 0.4;
+
 /// Whether the mean quality is what runs reach on bodies that are nowhere thin.
 bool has_the_quality_of_results(const QualityStatistics& now, bool uniform);
 
@@ -27,11 +30,15 @@ bool sizes_are_given(const Options& options, bool has_field);
 
 /// Whether the mesh may be a result whose surface asks for other sizes: of the quality of results
 /// where sizes vary, and neither too fine nor too coarse as a whole.
-bool is_nearly_result(const MeshSummary& now, const Options& options);
+/// \param in_curved the lengths in sizes that follow from the curvature alone: thin walls ask for
+/// less so that good tets fit, and where all are good they do
+bool is_nearly_result(const MeshSummary& now, const LengthStatistics& in_curved,
+                      const Options& options);
 
-/// Whether the mesh may be one for which a run has made its sizes finer, since the body has no room
-/// for those wanted.
-bool may_have_made_room(const MeshSummary& now, const Options& options);
+/// The same for a mesh for which a run has made its sizes finer, since the body has no room for
+/// those wanted.
+bool may_have_made_room(const MeshSummary& now, const LengthStatistics& in_curved,
+                        const Options& options);
 
 /// The sizes that a mesh has: at least 0.3 of those wanted, and at most 1.25 of `largest`.
 std::vector<float> own_sizes_within(const TetMesh& mesh, double largest);
@@ -43,7 +50,13 @@ inline constexpr double kFinestRoom = 0.512;
 /// all are of a poor quality, or few have the lengths wanted.
 enum class Room { kMissing, kLittle, kEnough };
 
-/// Only meshes that are coarse on the whole lack room, and where the caller left the sizes to us.
+/// Whether the mesh is one with room, as far as the means tell.
+bool has_room(const MeshSummary& after);
+
+/// Whether the mesh is so coarse on the whole that it may grow eightfold to have room.
+bool is_coarse_mesh(const MeshSummary& after);
+
+/// Room is only looked for where the caller left the sizes to us.
 Room room_in(const MeshSummary& after, const Options& options, bool has_field);
 
 /// How many tets are poor: far from what is wanted, in quality or in length. Needs the sizes.
@@ -55,8 +68,11 @@ bool none_is_poor(const MeshSummary& now);
 /// Whether so few are poor that they may be mended one by one.
 bool few_are_poor(const TetMesh& mesh);
 
-/// All tets are asked everything.
-void ask_all(TetMesh& mesh);
+/// All tets are asked everything, or `what` of it.
+void ask_all(TetMesh& mesh, std::uint8_t what = tet_flag::kAskAll);
+
+/// Tets of a lower quality are asked everything.
+void ask_below(TetMesh& mesh, double quality);
 
 /// No tet is asked any more.
 void ask_nothing(TetMesh& mesh);

@@ -14,7 +14,10 @@
 namespace cavea {
 namespace {
 
-constexpr std::size_t kMost = 20;
+/// Of tets that are sound, but below the target, only some are named.
+constexpr std::size_t kMostSound = 20;
+/// Of all: more would tell no more.
+constexpr std::size_t kMost = 1000;
 
 std::vector<TetId> worst_tets(const TetMesh& mesh, double below) {
   std::vector<TetId> bad;
@@ -23,7 +26,10 @@ std::vector<TetId> worst_tets(const TetMesh& mesh, double below) {
   std::ranges::sort(bad, [&](TetId a, TetId b) {
     return std::pair(mesh.qualities[a], a) < std::pair(mesh.qualities[b], b);
   });
-  bad.resize(std::min(bad.size(), kMost));
+  const auto sound =
+      std::ranges::find_if(bad, [&](TetId t) { return mesh.qualities[t] >= kSoundQuality; });
+  const std::size_t named = std::max(kMostSound, std::size_t(sound - bad.begin()));
+  bad.resize(std::min({bad.size(), named, kMost}));
   return bad;
 }
 
@@ -89,10 +95,11 @@ std::vector<VerdictCount> counts_of(const VerdictTable& table) {
 }
 
 std::vector<StubbornTet> find_stubborn(const TetMesh& mesh, const SurfaceModel& surface,
-                                       const CycleSettings& settings, double below) {
+                                       const CycleSettings& settings, double target) {
   Inquiry ask(mesh, surface, settings);
   std::vector<StubbornTet> stubborn;
-  for (const TetId t : worst_tets(mesh, below)) stubborn.push_back(ask(t));
+  for (const TetId t : worst_tets(mesh, std::max(kSoundQuality, target)))
+    stubborn.push_back(ask(t));
   return stubborn;
 }
 

@@ -65,6 +65,8 @@ class SurfaceModel {
   /// Size wanted at an anchor for the sake of the curvature (paper, section 4.2) and of thin walls,
   /// in [hmin, hmax].
   double size(const Anchor& anchor) const;
+  /// The same for the sake of the curvature alone.
+  double curved_size(const Anchor& anchor) const;
 
   /// The place of an anchor, which has one.
   Vec3 at(const Anchor& anchor) const;

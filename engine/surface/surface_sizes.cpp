@@ -220,20 +220,25 @@ Vec3 SurfaceModel::at(const Anchor& anchor) const {
   return patches_[anchor.facet].at(anchor.u, anchor.v);
 }
 
-double SurfaceModel::size(const Anchor& anchor) const {
+double SurfaceModel::curved_size(const Anchor& anchor) const {
   if (anchor.facet == kNone) return settings_.hmax;
   if (is_curve(anchor)) {
-    const CurveEdge& c = curves_[-2 - anchor.facet];
-    const double h = (1 - anchor.u) * sizes_[c.v[0]] + anchor.u * sizes_[c.v[1]];
-    return size_on_curve(curve_of(anchor.facet), at(anchor), h);
+    const CurveEdge& c = curves_[curve_of(anchor.facet)];
+    return (1 - anchor.u) * sizes_[c.v[0]] + anchor.u * sizes_[c.v[1]];
   }
   const auto& v = facets_[anchor.facet];
-  double h = (1 - double(anchor.u) - anchor.v) * sizes_[v[0]] + anchor.u * sizes_[v[1]] +
-             anchor.v * sizes_[v[2]];
+  const double h = (1 - double(anchor.u) - anchor.v) * sizes_[v[0]] + anchor.u * sizes_[v[1]] +
+                   anchor.v * sizes_[v[2]];
+  return size_near_creases(anchor.facet, at(anchor), h);
+}
+
+double SurfaceModel::size(const Anchor& anchor) const {
+  double h = curved_size(anchor);
+  if (anchor.facet == kNone) return h;
+  if (is_curve(anchor)) return size_on_curve(curve_of(anchor.facet), at(anchor), h);
   if (const std::int32_t corner = corner_vertex(anchor); corner != kNone)
     for_each_curve_at(corner, [&](std::int32_t e) { h = size_on_curve(e, points_[corner], h); });
-  const Vec3 place = at(anchor);
-  return thin_size(anchor.facet, place, size_near_creases(anchor.facet, place, h));
+  return thin_size(anchor.facet, at(anchor), h);
 }
 
 double SurfaceModel::size_on_curve(std::int32_t e, const Vec3& place, double size) const {

@@ -1,4 +1,6 @@
 // Where elements of the sizes asked for have no room, smaller ones are made.
+#include <algorithm>
+
 #include "remesh/support.h"
 
 namespace cavea::test {
@@ -19,6 +21,60 @@ TEST(Room, IsMadeInNarrowBodies) {
   EXPECT_GE(report.finer, 0.5);
   EXPECT_GE(report.after.quality.mean, 0.78);
   EXPECT_TRUE(report.targets_met());
+}
+
+/// A prism whose two long sides meet at 4 degrees.
+MeshData blade() {
+  MeshData data = kuhn_cube(6);
+  std::erase_if(data.tets, [&](const auto& t) {
+    double x_less_y = 0;
+    for (const int v : t) x_less_y += data.vertices[v].x - data.vertices[v].y;
+    return x_less_y < 0;
+  });
+  data.tet_refs.resize(data.tets.size());
+  for (Vec3& p : data.vertices) p = {p.x, p.y * 0.07, p.z / 1.5};
+  return data;
+}
+
+// Splits fill the octants of a ball, and a blade, in ways that leave elements no room, and the same
+// sizes have it when they are reached from finer ones.
+TEST(Room, IsFoundFromFinerSizes) {
+  MeshData octants_of_ball = ball(10);
+  set_refs(octants_of_ball,
+           [](const Vec3& c) { return 1 + (c.x > 0) + 2 * (c.y > 0) + 4 * (c.z > 0); });
+  for (const MeshData& body : {octants_of_ball, blade()}) {
+    TetMesh mesh = built(body);
+    const Report report = remesh(mesh, {}, {});
+    expect_sound(mesh);
+    EXPECT_EQ(report.finer, 1);
+    EXPECT_GE(report.after.quality.mean, 0.78);
+    const auto of_distance = [](const Target& t) { return t.name == "surface distance"; };
+    EXPECT_EQ(std::ranges::count_if(report.targets, of_distance), 1);
+  }
+}
+
+/// A cube with a pyramid on each side.
+MeshData star() {
+  MeshData data;
+  data.vertices = {{-1, -1, -1}, {-1, 1, -1}, {0, 0, -4}, {1, 1, -1}, {1, -1, -1},
+                   {4, 0, 0},    {1, -1, 1},  {1, 1, 1},  {0, 0, 4},  {-1, -1, 1},
+                   {-1, 1, 1},   {-4, 0, 0},  {0, 4, 0},  {0, -4, 0}};
+  data.tets = {{6, 13, 0, 4}, {7, 5, 6, 3},  {0, 10, 11, 9}, {10, 0, 11, 1}, {3, 0, 2, 4},
+               {0, 9, 13, 6}, {8, 9, 10, 7}, {9, 8, 6, 7},   {0, 3, 2, 1},   {1, 7, 12, 10},
+               {7, 1, 12, 3}, {3, 5, 6, 4},  {0, 1, 7, 3},   {0, 10, 9, 7},  {0, 1, 10, 7},
+               {6, 0, 9, 7},  {7, 6, 0, 3},  {3, 6, 0, 4}};
+  data.vertex_refs.assign(data.vertices.size(), 0);
+  data.tet_refs.assign(data.tets.size(), 1);
+  return data;
+}
+
+// Sizes of 0.8 leave it no room, but where they are reached from 0.64.
+TEST(Room, IsMadeByNoFinerSizesThanItTakes) {
+  TetMesh mesh = built(star());
+  const Report report = remesh(mesh, {}, {});
+  expect_sound(mesh);
+  EXPECT_EQ(report.finer, 0.8);
+  EXPECT_GE(report.after.quality.mean, 0.78);
 }
 
 TEST(Room, IsNotMadeWhereThereIsSome) {

@@ -1,5 +1,6 @@
 // Tets that stay bad are named, with what every operator says and what about the domain forbids
 // better.
+#include <array>
 #include <map>
 
 #include "remesh/support.h"
@@ -36,7 +37,8 @@ bool says(const StubbornTet& t, const std::string& what) {
 TEST(Stubborn, TetsInASharpWedgeAreNamedWithItsAngle) {
   const Report report = report_of(wedge(8), uniform(0.1));
   ASSERT_FALSE(report.stubborn.empty());
-  ASSERT_LE(report.stubborn.size(), 20u);
+  const auto& bins = report.after.quality.histogram;
+  EXPECT_EQ(std::int64_t(report.stubborn.size()), bins[0] + bins[1] + bins[2]);
   EXPECT_NEAR(report.stubborn[0].quality, report.after.quality.worst, 1e-6);
   EXPECT_EQ(report.stubborn[0].where, report.after.quality.worst_place);
   int sharp = 0;
@@ -101,6 +103,26 @@ TEST(Stubborn, TetsAtTheTipBetweenTwoCurvesAreNamedWithItsAngle) {
   ASSERT_FALSE(report.stubborn.empty());
   EXPECT_TRUE(says(report.stubborn[0], "feature curves meet at 8 degrees"))
       << report.stubborn[0].reason;
+}
+
+/// A roof with a narrow flat ridge of this width.
+MeshData roof(double width) {
+  const std::array<double, 4> x = {0, 0.5 - width / 2, 0.5 + width / 2, 1};
+  return mapped(kuhn_cube(3), [&](const Vec3& p) {
+    const auto i = std::size_t(std::lround(3 * p.x));
+    return Vec3{x[i], p.y, i % 3 == 0 ? 0.3 * p.z : p.z};
+  });
+}
+
+TEST(Stubborn, TetsAtANarrowStripBetweenCurvesAreNamedWithItsWidth) {
+  const Report report = report_of(roof(0.01), uniform(0.05));
+  ASSERT_FALSE(report.stubborn.empty());
+  int narrow = 0;
+  for (const StubbornTet& t : report.stubborn) {
+    EXPECT_NE(t.reason, "");
+    narrow += says(t, "between feature curves is 0.01 wide, 0.2 of the wanted length");
+  }
+  EXPECT_GT(narrow, 0);
 }
 
 TEST(Stubborn, AreNoneInAGoodMesh) {

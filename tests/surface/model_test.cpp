@@ -311,6 +311,7 @@ TEST(SurfaceModel, ThinWallsWantSizesOfTheirThickness) {
   for (const Anchor& a : thin.mesh.anchors) {
     EXPECT_LE(thin.model.size(a), 1.5 * kThick);
     EXPECT_GE(thin.model.size(a), kThick);
+    EXPECT_EQ(thin.model.curved_size(a), test::kSettings.hmax);
   }
   // No wall: the sides of a cube are farther from each other than the sizes that they want.
   const auto thick = modelled_cube(3);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "run_report.h"
 #include "summary_text.h"
@@ -61,7 +62,9 @@ std::string phases_text(const Report& report) {
 std::string stubborn_text(const Report& report) {
   std::string out =
       fmt::format("stubborn tetrahedra, the worst first: {}\n", report.stubborn.size());
-  for (const StubbornTet& t : report.stubborn) {
+  constexpr std::size_t kMostShown = 20;  // the JSON has all
+  const std::size_t shown = std::min(report.stubborn.size(), kMostShown);
+  for (const StubbornTet& t : std::span(report.stubborn).first(shown)) {
     out += fmt::format("  {:.3f} at ({:.6g}, {:.6g}, {:.6g})", t.quality, t.where.x, t.where.y,
                        t.where.z);
     if (!t.reason.empty()) out += ": " + t.reason;
