@@ -22,7 +22,8 @@ std::vector<Box> boxes_around(const std::vector<SizeSphere>& spots) {
 
 /// Shared by the copies of a field.
 struct Spots {
-  explicit Spots(std::vector<SizeSphere> some) : spots(std::move(some)), tree(boxes_around(spots)) {}
+  explicit Spots(std::vector<SizeSphere> some)
+      : spots(std::move(some)), tree(boxes_around(spots)) {}
   std::vector<SizeSphere> spots;
   BoxTree tree;
 };
