@@ -1,11 +1,13 @@
 #include "cavea/remesh/input.h"
 
+#include "cavea/base/error.h"
 #include "cavea/mesh/compact.h"
 #include "cavea/mesh/copy.h"
 
 namespace cavea {
 
 TetMesh Input::lend() {
+  if (lent_) throw InternalError("the input is lent already");
   // A run would have to change the structure at once.
   if (!may_lend_ || has_holes(mesh_)) return copy_of(mesh_);
   TetMesh lent;

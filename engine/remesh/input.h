@@ -12,7 +12,7 @@ class Input {
   /// \param may_lend nothing looks at `mesh` while a run works on it
   Input(TetMesh& mesh, bool may_lend) : mesh_(mesh), may_lend_(may_lend) {}
 
-  /// The mesh for a run to work on. \pre the structure is not lent
+  /// The mesh for a run to work on. \throw InternalError while the structure is lent
   TetMesh lend();
   bool is_lent() const { return lent_; }
   /// Makes the input whole before the run changes the structure of the mesh that was lent to it.

@@ -621,9 +621,8 @@ class Trials {
 
   Result operator()() {
     const std::unique_ptr<Run> first = run_once(1);
-    best_ = take(*first);
-    const Room room_of_first = room(best_);
-    if (room_of_first != Room::kEnough) input_.keep(best_.mesh);
+    const Room room_of_first = room_after(*first);
+    best_ = room_of_first == Room::kEnough ? take_last(*first) : take(*first);
     switch (room_of_first) {
       case Room::kEnough:
         break;
@@ -662,7 +661,17 @@ class Trials {
     run.report_.phases.clear();
   }
 
-  static Result take(Run& run) { return {run.take_mesh(), std::move(run.report_)}; }
+  /// The result of the last run, after which nobody needs the input.
+  static Result take_last(Run& run) { return {run.take_mesh(), std::move(run.report_)}; }
+
+  Result take(Run& run) {
+    input_.keep(run.mesh());
+    return take_last(run);
+  }
+
+  Room room_after(const Run& run) const {
+    return room_in(run.report_.after, options_, bool(field_));
+  }
 
   Room room(const Result& result) const {
     return room_in(result.report.after, options_, bool(field_));

@@ -23,6 +23,18 @@ TEST(Room, IsMadeInNarrowBodies) {
   EXPECT_TRUE(report.targets_met());
 }
 
+// A mesh that may have made room is mended first; where that finds none, other sizes are tried on
+// the input, which must be whole by then.
+TEST(Room, IsLookedForOnWhereMendingFindsNone) {
+  TetMesh first = built(bar());
+  remesh(first, {}, uniform(0.5));
+  TetMesh mesh = built(to_data(first));
+  const Report report = remesh(mesh, {}, {});
+  expect_sound(mesh);
+  EXPECT_LT(report.finer, 1);
+  EXPECT_NEAR(volume(mesh), volume(first), 1e-12);
+}
+
 /// A prism whose two long sides meet at 4 degrees.
 MeshData blade() {
   MeshData data = kuhn_cube(6);
