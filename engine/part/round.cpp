@@ -72,7 +72,7 @@ std::vector<std::int32_t> label_parts(const TetMesh& m, const std::vector<TetId>
 /// Lets a mesh of which much is in the parts grow a little without being moved while they are held.
 void make_room(TetMesh& m, std::size_t active) {
   // Rounds of fine and polish add fewer than the least. What has room is left where it is.
-  constexpr std::size_t kMuch = 4, kLeastShare = 16, kShare = 8;
+  constexpr std::size_t kMuch = 4, kLeastShare = 16, kShare = 12;
   if (kMuch * active < m.tets.size()) return;
   const auto with = [](std::size_t n, std::size_t share) { return n + n / share; };
   const std::size_t vertices = m.points.size(), tets = m.tets.size();
