@@ -15,6 +15,20 @@
 
 namespace cavea {
 
+namespace {
+
+ImposedSizes imposed_on(const TetMesh& mesh, const SizeBounds& bounds) {
+  if (!bounds.hgradreq && !bounds.surface_imposes) return {};
+  return {required_sizes(mesh, bounds.surface_imposes),
+          bounds.hgradreq.value_or(std::numeric_limits<double>::infinity())};
+}
+
+double bounded(double size, double hmin, const SizeBounds& bounds) {
+  return bounds.scale * std::max(bounds.finer * size, hmin);
+}
+
+}  // namespace
+
 SizeRange wished_range(const TetMesh& mesh, const SizeField& field) {
   if (!field) return {};
   return parallel_reduce(
@@ -29,20 +43,6 @@ SizeRange wished_range(const TetMesh& mesh, const SizeField& field) {
         return SizeRange{std::min(a.smallest, b.smallest), std::max(a.largest, b.largest)};
       });
 }
-
-namespace {
-
-ImposedSizes imposed_on(const TetMesh& mesh, const SizeBounds& bounds) {
-  if (!bounds.hgradreq && !bounds.surface_imposes) return {};
-  return {required_sizes(mesh, bounds.surface_imposes),
-          bounds.hgradreq.value_or(std::numeric_limits<double>::infinity())};
-}
-
-double bounded(double size, double hmin, const SizeBounds& bounds) {
-  return bounds.scale * std::max(bounds.finer * size, hmin);
-}
-
-}  // namespace
 
 void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>& curvature_size,
                       const SizeField& field, const SizeBounds& bounds) {
@@ -68,16 +68,18 @@ void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>&
     limit_gradation(mesh, bounds.hgrad, imposed);
 }
 
-void lower_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>& size,
-                        const SizeBounds& bounds) {
+std::vector<float> lower_wanted_sizes(TetMesh& mesh,
+                                      const std::function<double(const Anchor&)>& size,
+                                      const SizeBounds& bounds) {
   const VertexBounds at = bounds_of_vertices(mesh, bounds.hmin, bounds.hmax, bounds.local);
-  const std::vector<float> before = mesh.sizes;
+  std::vector<float> before = mesh.sizes;
   parallel_for(mesh.points.size(), [&](std::size_t v) {
     if (!(mesh.vertex_tags[v] & tag::kSurface)) return;
     const double h = std::min(double(at.hmax[v]), size(mesh.anchors[v]));
     mesh.sizes[v] = std::min(before[v], float(bounded(h, at.hmin[v], bounds)));
   });
   limit_gradation_of_lowered(mesh, bounds.hgrad, before, imposed_on(mesh, bounds));
+  return before;
 }
 
 }  // namespace cavea

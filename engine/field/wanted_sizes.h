@@ -43,8 +43,9 @@ void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>&
                       const SizeField& field, const SizeBounds& bounds);
 
 /// Lowers mesh.sizes to `size` of surface vertices, by anchor, within the bounds, and around them
-/// to what the gradation asks for; no other size changes. \pre no holes
-void lower_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>& size,
-                        const SizeBounds& bounds);
+/// to what the gradation asks for; no other size changes. \pre no holes \return the sizes before
+std::vector<float> lower_wanted_sizes(TetMesh& mesh,
+                                      const std::function<double(const Anchor&)>& size,
+                                      const SizeBounds& bounds);
 
 }  // namespace cavea

@@ -513,12 +513,12 @@ class Run {
   /// Vertices have moved since their sizes were set, so that set anew all would change a little:
   /// what the spots alone ask for counts where it is less.
   void resize_for(std::vector<SizeSphere> spots, double finest) {
-    const std::vector<float> kept = mesh_.sizes;
     const SizeField in_spots = field_inside(std::move(spots));
     const auto on_surface = [&](const Anchor& a) {
       return a.facet == kNone ? kEndless : in_spots(surface_->at(a));
     };
-    lower_wanted_sizes(mesh_, on_surface, size_bounds(std::min(r_.hmin, finest)));
+    const std::vector<float> kept =
+        lower_wanted_sizes(mesh_, on_surface, size_bounds(std::min(r_.hmin, finest)));
     ask_nothing(mesh_);
     ask_changed_lengths(mesh_, kept);
   }
@@ -621,7 +621,7 @@ class Trials {
 
   Result operator()() {
     const std::unique_ptr<Run> first = run_once(1);
-    const Room room_of_first = room_after(*first);
+    const Room room_of_first = room(first->report_);
     best_ = room_of_first == Room::kEnough ? take_last(*first) : take(*first);
     switch (room_of_first) {
       case Room::kEnough:
@@ -669,13 +669,7 @@ class Trials {
     return take_last(run);
   }
 
-  Room room_after(const Run& run) const {
-    return room_in(run.report_.after, options_, bool(field_));
-  }
-
-  Room room(const Result& result) const {
-    return room_in(result.report.after, options_, bool(field_));
-  }
+  Room room(const Report& report) const { return room_in(report.after, options_, bool(field_)); }
 
   /// A little room is found by one run and missed by the next: what the input has decides, but
   /// where it is much finer, the caller wants other sizes.
@@ -700,7 +694,7 @@ class Trials {
   /// What only mends may leave tets as they are that a run would have made better.
   bool try_mended() {
     Result result = take(*run_once(1, Effort::kMend));
-    if (room(result) == Room::kMissing || is_worst_worse(result)) return false;
+    if (room(result.report) == Room::kMissing || is_worst_worse(result)) return false;
     std::swap(best_, result);
     return true;
   }
@@ -723,7 +717,7 @@ class Trials {
     const bool as_sound = is_sound(back) || !is_sound(there);
     if ((has_room(back.report.after) || gained(back)) && as_sound && !is_worst_worse(back))
       std::swap(best_, back);
-    return room(best_) != Room::kMissing || !may_grow || offer(std::move(there));
+    return room(best_.report) != Room::kMissing || !may_grow || offer(std::move(there));
   }
 
   bool offer(Result&& result) {
