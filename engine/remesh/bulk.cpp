@@ -5,6 +5,7 @@
 
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/metric.h"
+#include "cavea/subdivide/contract.h"
 #include "cavea/subdivide/subdivide.h"
 #include "cavea/surface/midpoint.h"
 
@@ -18,6 +19,12 @@ constexpr double kLongOnSurface = 2.0, kLongAnywhere = 2.6;
 /// divided.
 constexpr double kWorthwhile = 0.02;
 constexpr int kMostLevels = 16;
+
+/// What is contracted in bulk: vertices inside at edges as short as those that are collapsed while
+/// thinning, which comes next and mends what is poor. Where fewer of them would go, thinning does
+/// as well and chooses better.
+constexpr ContractionLimits kContraction{
+    .short_edge = 0.6, .long_edge = kLongEdge, .least_quality = 0.01, .worthwhile = 0.4};
 
 bool is_long(const TetMesh& m, VertexId a, VertexId b, double most) {
   const Tag both = Tag(m.vertex_tags[a] & m.vertex_tags[b]);
@@ -56,6 +63,16 @@ double share_to_divide(const TetMesh& m, const std::vector<Item>& items) {
 }
 
 }  // namespace
+
+std::optional<TetMesh> coarsened_in_bulk(const TetMesh& mesh) {
+  std::optional<TetMesh> coarse = contracted(mesh, kContraction);
+  while (coarse) {
+    std::optional<TetMesh> coarser = contracted(*coarse, kContraction);
+    if (!coarser) break;
+    coarse = std::move(coarser);
+  }
+  return coarse;
+}
 
 bool is_worth_bulk(const TetMesh& mesh, BulkEdges which) {
   return (which == BulkEdges::kOfSurface ? share_to_divide(mesh, mesh.triangles)

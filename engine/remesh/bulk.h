@@ -1,10 +1,15 @@
 #pragma once
 #include <functional>
+#include <optional>
 
 #include "cavea/mesh/tet_mesh.h"
 #include "cavea/surface/surface_model.h"
 
 namespace cavea {
+
+/// The mesh without most of the vertices inside that are much nearer to each other than wanted,
+/// level by level; nothing if they are not many.
+std::optional<TetMesh> coarsened_in_bulk(const TetMesh& mesh);
 
 enum class BulkEdges { kOfSurface, kAll };
 

@@ -98,6 +98,7 @@ class Run {
   void operator()() {
     timed("analysis", [&] { analyse(); });
     mends_ = ask_if_it_stands();
+    if (!mends_ && !r_.freeze.collapse) timed("contraction", [&] { coarsen_in_bulk(); });
     if (!mends_ || poor_ > 0) input_.keep(mesh_);
     adapt(mends_ ? standing_recipe(r_) : recipe(r_, fill()));
   }
@@ -254,6 +255,13 @@ class Run {
   bool settled(const Phase& phase, const CycleResult& result) const {
     return !result.full && (phase.budget_rounds == 0 || budget_.met(mesh_)) &&
            double(result.changes) < phase.settled * double(mesh_.tets.size());
+  }
+
+  void coarsen_in_bulk() {
+    std::optional<TetMesh> coarser = coarsened_in_bulk(mesh_);
+    if (!coarser) return;
+    input_.take_back(mesh_);
+    mesh_ = *std::move(coarser);
   }
 
   void refine(BulkEdges which) {
