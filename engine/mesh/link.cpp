@@ -5,6 +5,7 @@
 
 #include "cavea/base/atomic.h"
 #include "cavea/base/error.h"
+#include "cavea/base/prefetch.h"
 #include "cavea/geometry/tet_block.h"
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/faces.h"
@@ -125,12 +126,23 @@ bool link_few(TetMesh& mesh, VertexId lowest, std::span<const std::uint32_t> buc
   return ordinary;
 }
 
+/// The tets of a bucket are all over the mesh: each is asked for while those before it are linked.
+void fetch_ahead(const TetMesh& mesh, const Buckets& buckets, std::size_t key) {
+  constexpr std::size_t kAhead = 2;
+  if (key + kAhead >= buckets.keys()) return;
+  for (const std::uint32_t value : buckets.of(key + kAhead)) {
+    prefetch(&mesh.tets[value >> 1]);
+    prefetch(&mesh.links[value >> 1]);
+  }
+}
+
 LinkFault link_all(TetMesh& mesh) {
   const Buckets buckets = tets_by_faces(mesh);
   return parallel_reduce(
       buckets.keys(), LinkFault{},
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
+          fetch_ahead(mesh, buckets, v);
           if (link_few(mesh, VertexId(v), buckets.of(v))) continue;
           const LinkFault fault = link_sorted(mesh, VertexId(v), buckets.of(v));
           if (fault.found()) return fault;
