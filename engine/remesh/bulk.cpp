@@ -64,10 +64,10 @@ double share_to_divide(const TetMesh& m, const std::vector<Item>& items) {
 
 }  // namespace
 
-std::optional<TetMesh> coarsened_in_bulk(const TetMesh& mesh) {
-  std::optional<TetMesh> coarse = contracted(mesh, kContraction);
+std::optional<TetMesh> coarsened_in_bulk(const TetMesh& mesh, const std::atomic<bool>* cancel) {
+  std::optional<TetMesh> coarse = contracted(mesh, kContraction, cancel);
   while (coarse) {
-    std::optional<TetMesh> coarser = contracted(*coarse, kContraction);
+    std::optional<TetMesh> coarser = contracted(*coarse, kContraction, cancel);
     if (!coarser) break;
     coarse = std::move(coarser);
   }

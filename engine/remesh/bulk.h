@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <functional>
 #include <optional>
 
@@ -9,7 +10,8 @@ namespace cavea {
 
 /// The mesh without most of the vertices inside that are much nearer to each other than wanted,
 /// level by level; nothing if they are not many.
-std::optional<TetMesh> coarsened_in_bulk(const TetMesh& mesh);
+std::optional<TetMesh> coarsened_in_bulk(const TetMesh& mesh,
+                                         const std::atomic<bool>* cancel = nullptr);
 
 enum class BulkEdges { kOfSurface, kAll };
 

@@ -258,7 +258,7 @@ class Run {
   }
 
   void coarsen_in_bulk() {
-    std::optional<TetMesh> coarser = coarsened_in_bulk(mesh_);
+    std::optional<TetMesh> coarser = coarsened_in_bulk(mesh_, options_.cancel);
     if (!coarser) return;
     input_.take_back(mesh_);
     mesh_ = *std::move(coarser);

@@ -7,6 +7,7 @@
 
 #include "cavea/base/atomic.h"
 #include "cavea/base/buckets.h"
+#include "cavea/base/cancel.h"
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/mesh/build.h"
@@ -34,15 +35,15 @@ bool is_degenerate(const Corners& k) {
 
 class Contraction {
  public:
-  Contraction(const TetMesh& mesh, const ContractionLimits& limits)
-      : mesh_(mesh), limits_(limits), near_(short_edges()) {}
+  Contraction(const TetMesh& mesh, const ContractionLimits& limits, const std::atomic<bool>* cancel)
+      : mesh_(mesh), limits_(limits), cancel_(cancel), near_(short_edges()) {}
 
   std::optional<TetMesh> operator()() {
+    throw_if_cancelled(cancel_);
     choose_kept();
     const std::size_t wanted = choose_images();
     if (double(wanted) < limits_.worthwhile * double(mesh_.points.size())) return std::nullopt;
-    while (give_way()) {
-    }
+    while (give_way()) throw_if_cancelled(cancel_);
     return make();
   }
 
@@ -215,6 +216,7 @@ class Contraction {
 
   const TetMesh& mesh_;
   const ContractionLimits& limits_;
+  const std::atomic<bool>* cancel_;
   const Buckets near_;
   std::vector<State> state_;
   std::vector<VertexId> image_;                 ///< where each vertex goes
@@ -223,8 +225,9 @@ class Contraction {
 
 }  // namespace
 
-std::optional<TetMesh> contracted(const TetMesh& mesh, const ContractionLimits& limits) {
-  return Contraction(mesh, limits)();
+std::optional<TetMesh> contracted(const TetMesh& mesh, const ContractionLimits& limits,
+                                  const std::atomic<bool>* cancel) {
+  return Contraction(mesh, limits, cancel)();
 }
 
 }  // namespace cavea

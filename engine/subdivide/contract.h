@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <optional>
 
 #include "cavea/mesh/tet_mesh.h"
@@ -34,6 +35,8 @@ struct ContractionLimits {
 /// and qualities are set.
 ///
 /// \pre links and triangles are as check() wants them, sizes are known
-std::optional<TetMesh> contracted(const TetMesh& mesh, const ContractionLimits& limits);
+/// \throw Cancelled when the caller raises `cancel`, which may be none
+std::optional<TetMesh> contracted(const TetMesh& mesh, const ContractionLimits& limits,
+                                  const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace cavea
