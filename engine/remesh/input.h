@@ -1,4 +1,6 @@
 #pragma once
+#include <utility>
+
 #include "cavea/mesh/tet_mesh.h"
 
 namespace cavea {
@@ -26,6 +28,29 @@ class Input {
  private:
   TetMesh& mesh_;  ///< its structure is elsewhere while it is lent
   bool may_lend_, lent_ = false;
+};
+
+/// The mesh of a run: what was lent to it and is no result goes back, whatever ends the run.
+class Loan {
+ public:
+  explicit Loan(Input& input) : input_(input), mesh_(input.lend()) {}
+  ~Loan() {
+    if (!is_taken_) input_.take_back(mesh_);
+  }
+  Loan(const Loan&) = delete;
+  Loan& operator=(const Loan&) = delete;
+
+  TetMesh& mesh() { return mesh_; }
+  /// For good: if nothing was changed, with what was lent.
+  TetMesh take() {
+    is_taken_ = true;
+    return std::move(mesh_);
+  }
+
+ private:
+  Input& input_;
+  TetMesh mesh_;
+  bool is_taken_ = false;
 };
 
 }  // namespace cavea

@@ -1,0 +1,76 @@
+#include "cavea/remesh/filling.h"
+
+#include <optional>
+
+#include "cavea/mesh/copy.h"
+#include "cavea/remesh/bulk.h"
+#include "cavea/remesh/rounds.h"
+#include "cavea/remesh/seeding.h"
+#include "cavea/remesh/standing.h"
+
+namespace cavea {
+namespace {
+
+/// Of a lower mean quality are bodies filled with needles from side to side: halving the edges of
+/// their surface in bulk would divide each needle many times. Above, bulk does as well.
+constexpr double kOfNeedles = 0.1;
+
+void refine(Job& job, BulkEdges which) {
+  if (job.r.freeze.surface) return;
+  refine_in_bulk(job.mesh, job.surface.working_model(), which, [&] { job.resize(); });
+}
+
+/// The surface's edges by the Delaunay kernel, a level a round.
+void refine_among_needles(Job& job) {
+  if (job.r.freeze.surface) return;
+  run_phase(job, surfacing(job.r));
+  job.resize();
+  ask_all(job.mesh);
+}
+
+std::int64_t seed(Job& job) {
+  const std::int64_t seeds =
+      seed_interior(job.mesh, job.sizes.law(), job.options.cancel, job.verdicts);
+  if (job.sizes.vary() && seeds > 0) job.resize();
+  ask_all(job.mesh);
+  trust_good_tets(job.mesh);
+  return seeds;
+}
+
+}  // namespace
+
+void coarsen_in_bulk(Job& job) {
+  if (job.r.freeze.collapse) return;
+  std::optional<TetMesh> coarser = coarsened_in_bulk(job.mesh, job.options.cancel);
+  if (!coarser) return;
+  job.input.take_back(job.mesh);
+  job.mesh = *std::move(coarser);
+}
+
+Seeds fill(Job& job) {
+  if (job.r.freeze.insert) return Seeds::kAbsent;
+  constexpr double kFew = 0.05, kMost = 0.5;  // of all vertices
+  TetMesh& mesh = job.mesh;
+  const bool needles = job.report.before.quality.mean < kOfNeedles;
+  std::optional<TetMesh> before;
+  if (!job.r.freeze.surface && (needles || is_worth_bulk(mesh, BulkEdges::kOfSurface)))
+    before = copy_of(mesh);
+  if (needles)
+    job.steps.timed("surface", [&] { refine_among_needles(job); });
+  else
+    job.steps.timed("bulk", [&] { refine(job, BulkEdges::kOfSurface); });
+  const bool divided = before && mesh.points.size() > before->points.size();
+  const Phase thin = thinning(job.r);
+  job.steps.timed(thin.name, [&] { run_phase(job, thin); });
+  std::int64_t seeds = 0;
+  job.steps.timed("seeding", [&] { seeds = seed(job); });
+  const double share = double(seeds) / double(mesh.points.size());
+  if (share >= kMost) return Seeds::kMost;
+  if (!divided || share >= kFew) return Seeds::kSome;
+  // Too thin for seeds: a fine surface around what is coarse inside is then hard to mend.
+  mesh = *std::move(before);
+  job.steps.timed("bulk", [&] { refine(job, BulkEdges::kAll); });
+  return Seeds::kAbsent;
+}
+
+}  // namespace cavea

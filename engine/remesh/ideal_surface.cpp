@@ -1,0 +1,87 @@
+#include "cavea/remesh/ideal_surface.h"
+
+#include <algorithm>
+
+#include "cavea/surface/attach.h"
+#include "cavea/surface/features.h"
+
+namespace cavea {
+namespace {
+
+FeatureOptions feature_options(const Options& options, const ResolvedOptions& r) {
+  // An edge of the wanted size h across a fold of angle a sags by h a / 4; where triangles of
+  // height w meet at a, h = sqrt(4.5 hausd w / a). Beyond a w = 3 hausd the sag is too large:
+  // then edges must follow the fold, and w is no less than about h, so that they can.
+  constexpr double kFold = 3;
+  // A smooth surface there would bulge by w a / 8. What is above the bound remains as a crease,
+  // of angle a' with w a' = w a - 8 bulge, to which sizes of about 3.5 hausd / a' belong. Beyond
+  // 6 of them in w it is better to follow the crease, too; but where it is slight the shape is
+  // meant to be smooth, and only the tolerance too small for its facets.
+  constexpr double kBulge = 8, kCrease = 6 * 3.5, kSlight = 20;
+  constexpr double kSliver = 0.5;  // of hausd: less than what the surface may be off anyway
+  FeatureOptions o;
+  o.sliver = kSliver * r.hausd;
+  o.angle = options.angle, o.detect_ridges = options.detect_ridges;
+  if (options.faceted)
+    o.crease = kFold * r.hausd;
+  else if (o.detect_ridges)
+    o.crease = kBulge * r.max_bulge + kCrease * r.hausd, o.least_crease_angle = kSlight;
+  return o;
+}
+
+}  // namespace
+
+void IdealSurface::take(TetMesh& mesh) {
+  const FeatureOptions features = feature_options(options_, r_);
+  if (!options_.surface) classify_features(mesh, features);
+  take_model(mesh, 1, model_);
+  if (options_.surface) attach_to(mesh, *model_, features, r_.hausd);
+}
+
+void IdealSurface::loosen(TetMesh& mesh, double scale) {
+  looser_ = scale * scale;
+  take_model(mesh, looser_, loose_);
+}
+
+void IdealSurface::trust_facets(TetMesh& mesh) {
+  constexpr double kTrusted = 0.9;  // so that what lies between samples is within, too
+  max_bulge_ = std::min(max_bulge_, kTrusted * r_.hausd);
+  if (bulge() <= max_bulge_) return;
+  model_->limit_bulge(max_bulge_);
+  meter_.reset();
+  bulge_.reset();
+  if (loose_) take_model(mesh, looser_, loose_);
+}
+
+SurfaceDistance IdealSurface::distance_of(const TetMesh& mesh) {
+  // A triangle that is so near at seven samples is not beyond the tolerance at others: bumps of
+  // the model below it are sampled from their own side.
+  constexpr double kNear = 0.5;
+  if (!meter_)
+    meter_.emplace(*model_,
+                   DistanceSampling{default_sample_step(mesh, *model_), kMeasuredShare, kNear});
+  return meter_->measure(mesh);
+}
+
+double IdealSurface::bulge() {
+  if (!bulge_) bulge_ = measure_bulge(*model_);
+  return *bulge_;
+}
+
+/// `looser` multiplies the tolerances. \param mesh is classified, if its surface is the truth
+void IdealSurface::take_model(TetMesh& mesh, double looser,
+                              std::optional<SurfaceModel>& model) const {
+  auto of_reference = r_.hausd_of_triangles;
+  for (auto& [reference, hausd] : of_reference) hausd *= looser;
+  const SurfaceModel::Settings settings{looser * r_.hausd, max_bulge_, r_.smallest, r_.largest,
+                                        of_reference};
+  if (!options_.surface) {
+    model.emplace(mesh, settings);
+    return;
+  }
+  TetMesh truth = *options_.surface;
+  classify_features(truth, feature_options(options_, r_));
+  model.emplace(truth, settings);
+}
+
+}  // namespace cavea

@@ -1,0 +1,27 @@
+#include "cavea/remesh/mending.h"
+
+#include "cavea/remesh/rounds.h"
+#include "cavea/remesh/standing.h"
+
+namespace cavea {
+
+void mend_poor(Job& job) {
+  constexpr int kMends = 5;
+  if (job.keeping.leaves_all()) return;
+  std::int64_t poor = count_poor(job.mesh);
+  for (int k = 0; k < kMends && poor > 0; ++k) {
+    ask_nothing(job.mesh);
+    ask_poor(job.mesh);
+    job.steps.timed("mending", [&] { run_phases(job, poor_recipe(job.r)); });
+    const std::int64_t left = count_poor(job.mesh);
+    if (stays_poor(left, poor)) break;
+    poor = left;
+  }
+}
+
+bool stays_poor(std::int64_t left, std::int64_t poor) {
+  constexpr double kMended = 0.9;
+  return double(left) > kMended * double(poor);
+}
+
+}  // namespace cavea

@@ -1,0 +1,103 @@
+#include "cavea/remesh/repair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "cavea/remesh/mending.h"
+#include "cavea/remesh/rounds.h"
+#include "cavea/remesh/standing.h"
+
+namespace cavea {
+namespace {
+
+/// Places that are still too far from the surface after this many repairs are left and reported.
+constexpr int kRepairs = 10;
+
+/// The smallest size of repairs. The least of all bounds is a wish, but what bounds a uniform size
+/// from below would forbid them.
+double finest_size(const ResolvedOptions& r) {
+  constexpr double kFinest = 0.125;
+  return r.uniform() ? kFinest * r.smallest : r.smallest;
+}
+
+/// Around the far sample's triangle. The distance goes with the square of the size; a little more
+/// for good measure.
+SizeSphere spot_around(const FarSample& f, const TetMesh& mesh, const ResolvedOptions& r) {
+  // The triangle's vertices are to lie inside the spot, whatever rounding does.
+  constexpr double kReach = 1.01;
+  SizeSphere spot{f.where, 0, r.largest};
+  for (const VertexId v : mesh.triangles[std::size_t(f.triangle)].v) {
+    spot.radius = std::max(spot.radius, kReach * distance(f.where, mesh.points[v]));
+    spot.size = std::min(spot.size, double(mesh.sizes[v]));
+  }
+  const double factor = std::max(0.5, 0.75 * std::sqrt(kMeasuredShare * f.hausd / f.distance));
+  spot.size = std::max(spot.size * factor, finest_size(r));
+  return spot;
+}
+
+std::vector<SizeSphere> spots_of(const SurfaceDistance& distance, const TetMesh& mesh,
+                                 const ResolvedOptions& r) {
+  std::vector<SizeSphere> spots;
+  for (const auto* far : {&distance.far_facets, &distance.far_triangles})
+    for (const FarSample& f : *far)
+      if (f.triangle != kNone) spots.push_back(spot_around(f, mesh, r));
+  return spots;
+}
+
+void repair(Job& job, const SurfaceDistance& distance) {
+  job.input.keep(job.mesh);
+  const std::vector<float> sizes_before = job.sizes.lower(
+      job.mesh, job.surface.model(), spots_of(distance, job.mesh, job.r), finest_size(job.r));
+  ask_nothing(job.mesh);
+  ask_changed_lengths(job.mesh, sizes_before);
+  run_phases(job, mending_recipe(job.r));
+}
+
+/// Repairs make the surface finer, which would break a budget that binds. Where the size is to be
+/// uniform only few places may be, or it is too large for the tolerance.
+bool may_repair(const Job& job, const SurfaceDistance& distance) {
+  constexpr double kFewPlaces = 0.02;  // of the surface triangles
+  const std::size_t places = distance.far_facets.size() + distance.far_triangles.size();
+  const bool few = double(places) < kFewPlaces * double(job.mesh.triangles.size());
+  return (few || !job.r.uniform()) && !job.r.freeze.insert && !job.r.freeze.surface &&
+         !job.sizes.budget().binds();
+}
+
+bool is_far(const SurfaceDistance& distance) { return distance.worse().worst > kMeasuredShare; }
+
+/// The caller's last touch.
+void finish(Job& job) {
+  if (!job.options.finish || job.r.freeze.move || job.r.freeze.surface) return;
+  job.input.keep(job.mesh);
+  job.steps.timed("finish", [&] { job.options.finish(job.mesh); });
+}
+
+SurfaceDistance finish_and_measure(Job& job) {
+  finish(job);
+  SurfaceDistance distance;
+  job.steps.timed("measurement", [&] { distance = job.surface.distance_of(job.mesh); });
+  return distance;
+}
+
+}  // namespace
+
+SurfaceDistance measure_and_repair(Job& job) {
+  SurfaceDistance distance = finish_and_measure(job);
+  int repairs = 0;
+  const auto repair_all = [&] {
+    for (; repairs < kRepairs && may_repair(job, distance) && is_far(distance); ++repairs) {
+      job.steps.timed("repair", [&] { repair(job, distance); });
+      distance = finish_and_measure(job);
+    }
+  };
+  repair_all();
+  if (repairs == 0 || count_poor(job.mesh) == 0) return distance;
+  // Repairs may leave poor tets as phases do, and mending these may move the surface.
+  mend_poor(job);
+  distance = finish_and_measure(job);
+  repair_all();
+  return distance;
+}
+
+}  // namespace cavea

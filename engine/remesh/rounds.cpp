@@ -1,0 +1,78 @@
+#include "cavea/remesh/rounds.h"
+
+#include <algorithm>
+
+#include "cavea/part/round.h"
+#include "cavea/remesh/forecast.h"
+#include "cavea/remesh/standing.h"
+
+namespace cavea {
+namespace {
+
+CycleSettings settings_of(const Job& job, const Phase& phase) {
+  CycleSettings settings = phase.cycle;
+  settings.cancel = job.options.cancel;
+  return settings;
+}
+
+PartSize part_size(const Job& job, const Phase& phase) {
+  PartSize size{job.options.tets_per_part};
+  if (phase.one_part > 0) size.one_part = phase.one_part;
+  return size;
+}
+
+std::int64_t most_tets_of_part(const Job& job, const Phase& phase, const PartSize& size) {
+  const std::int64_t tets = std::int64_t(job.mesh.tets.size());
+  return std::int64_t(phase.growth * double(tets) / part_count(tets, size)) + 10000;
+}
+
+bool is_to_go_on(const Job& job, const Phase& phase, int round) {
+  return round <= phase.rounds ||
+         (round <= phase.rounds + phase.budget_rounds && !job.sizes.budget().met(job.mesh));
+}
+
+/// Whether a phase may end after a round with this result.
+bool is_settled(const Job& job, const Phase& phase, const CycleResult& result) {
+  return !result.full && (phase.budget_rounds == 0 || job.sizes.budget().met(job.mesh)) &&
+         double(result.changes) < phase.settled * double(job.mesh.tets.size());
+}
+
+/// Whether the rounds before have left nothing to ask.
+bool is_all_done(const Job& job) {
+  return job.report.part_of_tet.size() == job.mesh.tets.size() && is_nothing_asked(job.mesh);
+}
+
+}  // namespace
+
+void run_phase(Job& job, const Phase& phase) {
+  TetMesh& mesh = job.mesh;
+  CycleSettings settings = settings_of(job, phase);
+  const PartSize size = part_size(job, phase);
+  if (phase.ask > 0) ask_all(mesh, phase.ask);
+  if (phase.ask_below > 0) ask_below(mesh, phase.ask_below);
+  for (int round = 1; is_to_go_on(job, phase, round); ++round) {
+    job.steps.tell(phase.name, round);
+    refuse_too_large(mesh, job.most_bytes);
+    if (phase.resize && round > 1 && job.sizes.vary()) job.resize(), ask_lengths(mesh);
+    if (is_all_done(job)) break;
+    if (phase.growth > 0) settings.most_tets = most_tets_of_part(job, phase, size);
+    const RoundResult result =
+        run_round(mesh, job.surface.working_model(), settings, &job.report.part_of_tet, size);
+    job.report.parts = std::max(job.report.parts, result.parts);
+    job.verdicts += result.cycle.verdicts;
+    if (phase.budget_rounds > 0) job.sizes.budget().learn(mesh);
+    if (is_settled(job, phase, result.cycle)) break;
+  }
+}
+
+void run_residual_of(Job& job, const Phase& last) {
+  job.report.residual += run_residual(job.mesh, job.surface.working_model(), settings_of(job, last),
+                                      job.report.part_of_tet, job.verdicts);
+}
+
+void run_phases(Job& job, const std::vector<Phase>& phases) {
+  for (const Phase& phase : phases) run_phase(job, phase);
+  run_residual_of(job, phases.back());
+}
+
+}  // namespace cavea

@@ -1,0 +1,36 @@
+#pragma once
+#include <vector>
+
+#include "cavea/base/timer.h"
+#include "cavea/mesh/tet_mesh.h"
+#include "cavea/remesh/options.h"
+#include "cavea/remesh/report.h"
+
+namespace cavea {
+
+/// Times the steps of a run and tells the caller how far it is.
+class Steps {
+ public:
+  /// \param mesh that is worked on \param times gets the time of each step
+  Steps(const TetMesh& mesh, const Options& options, std::vector<PhaseTime>& times)
+      : mesh_(mesh), options_(options), times_(times) {}
+
+  template <class Step>
+  void timed(const char* name, Step&& step) {
+    Timer timer;
+    tell(name, 0);
+    step();
+    times_.push_back({name, timer.seconds()});
+  }
+
+  /// \throw Cancelled if the caller wants no more
+  void tell(const char* phase, int round) const;
+
+ private:
+  const TetMesh& mesh_;
+  const Options& options_;
+  std::vector<PhaseTime>& times_;
+  Timer since_start_;
+};
+
+}  // namespace cavea
