@@ -3,10 +3,10 @@
 #include <optional>
 
 #include "cavea/mesh/copy.h"
+#include "cavea/remesh/asking.h"
 #include "cavea/remesh/bulk.h"
 #include "cavea/remesh/rounds.h"
 #include "cavea/remesh/seeding.h"
-#include "cavea/remesh/standing.h"
 
 namespace cavea {
 namespace {

@@ -1,6 +1,7 @@
 #include "cavea/remesh/keeping.h"
 
 #include "cavea/field/own_sizes.h"
+#include "cavea/remesh/asking.h"
 #include "cavea/remesh/job.h"
 #include "cavea/remesh/standing.h"
 

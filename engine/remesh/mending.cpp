@@ -1,5 +1,6 @@
 #include "cavea/remesh/mending.h"
 
+#include "cavea/remesh/asking.h"
 #include "cavea/remesh/rounds.h"
 #include "cavea/remesh/standing.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cavea/remesh/asking.h"
 #include "cavea/remesh/mending.h"
 #include "cavea/remesh/rounds.h"
 #include "cavea/remesh/standing.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "cavea/part/round.h"
+#include "cavea/remesh/asking.h"
 #include "cavea/remesh/forecast.h"
-#include "cavea/remesh/standing.h"
 
 namespace cavea {
 namespace {

@@ -1,6 +1,7 @@
 #include "cavea/remesh/run.h"
 
 #include "cavea/base/memory.h"
+#include "cavea/remesh/asking.h"
 #include "cavea/remesh/conclusion.h"
 #include "cavea/remesh/filling.h"
 #include "cavea/remesh/forecast.h"

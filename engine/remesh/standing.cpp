@@ -7,6 +7,7 @@
 #include "cavea/base/parallel.h"
 #include "cavea/field/own_sizes.h"
 #include "cavea/geometry/metric.h"
+#include "cavea/remesh/room.h"
 
 namespace cavea {
 namespace {
@@ -70,14 +71,6 @@ bool is_between(const MeshSummary& now, const LengthStatistics& in_curved, const
   return has_the_quality_of_results(now.quality, false) && now.lengths.mean >= finest && !coarse;
 }
 
-template <class Ask>
-void ask_lengths_where(TetMesh& m, Ask&& ask) {
-  parallel_for(m.tets.size(), [&](std::size_t t) {
-    if (m.tet_alive(TetId(t)) && std::ranges::any_of(m.tets[t], ask))
-      m.tet_flags[t] |= tet_flag::kAskLength;
-  });
-}
-
 }  // namespace
 
 bool has_the_quality_of_results(const QualityStatistics& now, bool uniform) {
@@ -135,26 +128,6 @@ std::vector<float> own_sizes_within(const TetMesh& mesh, double largest) {
   return sizes;
 }
 
-bool has_room(const MeshSummary& after) {
-  constexpr double kRoomyMean = 0.78;   // all bodies that are nowhere narrow reach it
-  constexpr double kRoomyConform = 90;  // the usual target
-  return after.quality.mean >= kRoomyMean && after.lengths.conforming_percent() >= kRoomyConform;
-}
-
-bool is_coarse_mesh(const MeshSummary& after) {
-  constexpr std::int64_t kCoarseMesh = 50000;
-  return after.counts.tets < kCoarseMesh;
-}
-
-Room room_in(const MeshSummary& after, const Options& options, bool has_field) {
-  constexpr double kSurelyRoomyMean = 0.82;    // no other run has less than a mean with room
-  constexpr std::int64_t kLargeMesh = 500000;  // which should not take thrice the time unasked
-  if (sizes_are_given(options, has_field) || after.counts.tets >= kLargeMesh) return Room::kEnough;
-  if (!has_room(after)) return Room::kMissing;
-  return is_coarse_mesh(after) && after.quality.mean < kSurelyRoomyMean ? Room::kLittle
-                                                                        : Room::kEnough;
-}
-
 std::int64_t count_poor(const TetMesh& mesh) {
   return count_tets(mesh, [&](TetId t) { return is_poor(mesh, t); });
 }
@@ -168,37 +141,10 @@ bool few_are_poor(const TetMesh& mesh) {
   return double(count_poor(mesh)) <= kFew * double(mesh.tets.size());
 }
 
-void ask_all(TetMesh& mesh, std::uint8_t what) {
-  for (std::uint8_t& flags : mesh.tet_flags) flags |= what;
-}
-
-void ask_below(TetMesh& mesh, double quality) {
-  parallel_for(mesh.tets.size(), [&](std::size_t t) {
-    if (mesh.qualities[t] < quality) mesh.tet_flags[t] |= tet_flag::kAskAll;
-  });
-}
-
-void ask_nothing(TetMesh& mesh) {
-  parallel_for(mesh.tets.size(), [&](std::size_t t) { mesh.tet_flags[t] &= tet_flag::kRequired; });
-}
-
-bool is_nothing_asked(const TetMesh& mesh) {
-  return count_tets(mesh, [&](TetId t) { return (mesh.tet_flags[t] & tet_flag::kAskAll) != 0; }) ==
-         0;
-}
-
 void ask_poor(TetMesh& mesh) {
   parallel_for(mesh.tets.size(), [&](std::size_t t) {
     if (is_poor(mesh, TetId(t))) mesh.tet_flags[t] |= tet_flag::kAskAll;
   });
-}
-
-void ask_lengths(TetMesh& mesh) {
-  ask_lengths_where(mesh, [](VertexId) { return true; });
-}
-
-void ask_changed_lengths(TetMesh& mesh, const std::vector<float>& sizes_before) {
-  ask_lengths_where(mesh, [&](VertexId v) { return mesh.sizes[v] != sizes_before[v]; });
 }
 
 }  // namespace cavea

@@ -43,22 +43,6 @@ bool may_have_made_room(const MeshSummary& now, const LengthStatistics& in_curve
 /// The sizes that a mesh has: at least 0.3 of those wanted, and at most 1.25 of `largest`.
 std::vector<float> own_sizes_within(const TetMesh& mesh, double largest);
 
-/// Where a body has no room, sizes of this share of those wanted are the finest that are tried.
-inline constexpr double kFinestRoom = 0.512;
-
-/// How much room the shape leaves for elements of the sizes asked for: in strips one of them wide
-/// all are of a poor quality, or few have the lengths wanted.
-enum class Room { kMissing, kLittle, kEnough };
-
-/// Whether the mesh is one with room, as far as the means tell.
-bool has_room(const MeshSummary& after);
-
-/// Whether the mesh is so coarse on the whole that it may grow eightfold to have room.
-bool is_coarse_mesh(const MeshSummary& after);
-
-/// Room is only looked for where the caller left the sizes to us.
-Room room_in(const MeshSummary& after, const Options& options, bool has_field);
-
 /// How many tets are poor: far from what is wanted, in quality or in length. Needs the sizes.
 std::int64_t count_poor(const TetMesh& mesh);
 
@@ -68,23 +52,7 @@ bool none_is_poor(const MeshSummary& now);
 /// Whether so few are poor that they may be mended one by one.
 bool few_are_poor(const TetMesh& mesh);
 
-/// All tets are asked everything, or `what` of it.
-void ask_all(TetMesh& mesh, std::uint8_t what = tet_flag::kAskAll);
-
-/// Tets of a lower quality are asked everything.
-void ask_below(TetMesh& mesh, double quality);
-
-/// No tet is asked any more.
-void ask_nothing(TetMesh& mesh);
-bool is_nothing_asked(const TetMesh& mesh);
-
 /// Asks those tets everything.
 void ask_poor(TetMesh& mesh);
-
-/// Asks the lengths of all tets again.
-void ask_lengths(TetMesh& mesh);
-
-/// Asks the lengths of tets at vertices whose wanted size was another one.
-void ask_changed_lengths(TetMesh& mesh, const std::vector<float>& sizes_before);
 
 }  // namespace cavea

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cavea/mesh/copy.h"
+#include "cavea/remesh/room.h"
 #include "cavea/remesh/standing.h"
 #include "cavea/remesh/stubborn.h"
 

@@ -1,0 +1,27 @@
+#include "cavea/remesh/room.h"
+
+#include "cavea/remesh/standing.h"
+
+namespace cavea {
+
+bool has_room(const MeshSummary& after) {
+  constexpr double kRoomyMean = 0.78;   // all bodies that are nowhere narrow reach it
+  constexpr double kRoomyConform = 90;  // the usual target
+  return after.quality.mean >= kRoomyMean && after.lengths.conforming_percent() >= kRoomyConform;
+}
+
+bool is_coarse_mesh(const MeshSummary& after) {
+  constexpr std::int64_t kCoarseMesh = 50000;
+  return after.counts.tets < kCoarseMesh;
+}
+
+Room room_in(const MeshSummary& after, const Options& options, bool has_field) {
+  constexpr double kSurelyRoomyMean = 0.82;    // no other run has less than a mean with room
+  constexpr std::int64_t kLargeMesh = 500000;  // which should not take thrice the time unasked
+  if (sizes_are_given(options, has_field) || after.counts.tets >= kLargeMesh) return Room::kEnough;
+  if (!has_room(after)) return Room::kMissing;
+  return is_coarse_mesh(after) && after.quality.mean < kSurelyRoomyMean ? Room::kLittle
+                                                                        : Room::kEnough;
+}
+
+}  // namespace cavea
