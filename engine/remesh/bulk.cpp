@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/metric.h"
@@ -62,6 +63,12 @@ double share_to_divide(const TetMesh& m, const std::vector<Item>& items) {
   return double(long_ones) / double(items.size());
 }
 
+/// Whether so much is long that a level of subdivision is worth its cost.
+bool is_worth_bulk(const TetMesh& mesh, BulkEdges which) {
+  return (which == BulkEdges::kOfSurface ? share_to_divide(mesh, mesh.triangles)
+                                         : share_to_divide(mesh, mesh.tets)) > kWorthwhile;
+}
+
 }  // namespace
 
 std::optional<TetMesh> coarsened_in_bulk(const TetMesh& mesh, const std::atomic<bool>* cancel) {
@@ -74,26 +81,23 @@ std::optional<TetMesh> coarsened_in_bulk(const TetMesh& mesh, const std::atomic<
   return coarse;
 }
 
-bool is_worth_bulk(const TetMesh& mesh, BulkEdges which) {
-  return (which == BulkEdges::kOfSurface ? share_to_divide(mesh, mesh.triangles)
-                                         : share_to_divide(mesh, mesh.tets)) > kWorthwhile;
-}
-
-int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, BulkEdges which,
-                   const std::function<void()>& resize) {
+std::optional<TetMesh> refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, BulkEdges which,
+                                      const std::function<void()>& resize) {
   auto halved = [&](const MeshEdge& e) {
     if (e.triangle != kNone)
       return is_long(mesh, mesh.triangles[e.triangle], std::size_t(e.side), kLongOnSurface);
     return which == BulkEdges::kAll && is_long(mesh, e.a, e.b, kLongAnywhere);
   };
-  int level = 0;
-  for (; level < kMostLevels && is_worth_bulk(mesh, which); ++level) {
-    mesh = subdivide(mesh, halved, [&](const MeshEdge& e) {
+  std::optional<TetMesh> before;
+  for (int level = 0; level < kMostLevels && is_worth_bulk(mesh, which); ++level) {
+    TetMesh finer = subdivide(mesh, halved, [&](const MeshEdge& e) {
       return midpoint(mesh, surface, e.a, e.b, e.triangle, e.side);
     });
+    if (!before) before = std::move(mesh);
+    mesh = std::move(finer);
     resize();
   }
-  return level;
+  return before;
 }
 
 }  // namespace cavea

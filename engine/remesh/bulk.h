@@ -15,14 +15,11 @@ std::optional<TetMesh> coarsened_in_bulk(const TetMesh& mesh,
 
 enum class BulkEdges { kOfSurface, kAll };
 
-/// Whether so much is long that a level of subdivision is worth its cost.
-bool is_worth_bulk(const TetMesh& mesh, BulkEdges which);
-
 /// Pattern subdivision, all at once and level by level, of the edges that are much longer than
 /// wanted (paper, section 4.1.1), until few are left; `resize` sets the wanted sizes of a finer
 /// mesh. Those of the surface if seed_interior() is to fill the volume; all where the body is too
-/// thin for seeds. \return the number of levels
-int refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, BulkEdges which,
-                   const std::function<void()>& resize);
+/// thin for seeds. \return the mesh before, if it was refined
+std::optional<TetMesh> refine_in_bulk(TetMesh& mesh, const SurfaceModel& surface, BulkEdges which,
+                                      const std::function<void()>& resize);
 
 }  // namespace cavea

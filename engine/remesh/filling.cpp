@@ -15,17 +15,20 @@ namespace {
 /// their surface in bulk would divide each needle many times. Above, bulk does as well.
 constexpr double kOfNeedles = 0.1;
 
-void refine(Job& job, BulkEdges which) {
-  if (job.r.freeze.surface) return;
-  refine_in_bulk(job.mesh, job.surface.working_model(), which, [&] { job.resize(); });
+/// \return the mesh before, if it was refined
+std::optional<TetMesh> refine(Job& job, BulkEdges which) {
+  if (job.r.freeze.surface) return {};
+  return refine_in_bulk(job.mesh, job.surface.working_model(), which, [&] { job.resize(); });
 }
 
-/// The surface's edges by the Delaunay kernel, a level a round.
-void refine_among_needles(Job& job) {
-  if (job.r.freeze.surface) return;
+/// The same by the Delaunay kernel, a level a round.
+std::optional<TetMesh> refine_among_needles(Job& job) {
+  if (job.r.freeze.surface) return {};
+  TetMesh before = copy_of(job.mesh);
   run_phase(job, surfacing(job.r));
   job.resize();
   ask_all(job.mesh);
+  return before;
 }
 
 std::int64_t seed(Job& job) {
@@ -51,14 +54,11 @@ Seeds fill(Job& job) {
   if (job.r.freeze.insert) return Seeds::kAbsent;
   constexpr double kFew = 0.05, kMost = 0.5;  // of all vertices
   TetMesh& mesh = job.mesh;
-  const bool needles = job.report.before.quality.mean < kOfNeedles;
   std::optional<TetMesh> before;
-  if (!job.r.freeze.surface && (needles || is_worth_bulk(mesh, BulkEdges::kOfSurface)))
-    before = copy_of(mesh);
-  if (needles)
-    job.steps.timed("surface", [&] { refine_among_needles(job); });
+  if (job.report.before.quality.mean < kOfNeedles)
+    job.steps.timed("surface", [&] { before = refine_among_needles(job); });
   else
-    job.steps.timed("bulk", [&] { refine(job, BulkEdges::kOfSurface); });
+    job.steps.timed("bulk", [&] { before = refine(job, BulkEdges::kOfSurface); });
   const bool divided = before && mesh.points.size() > before->points.size();
   const Phase thin = thinning(job.r);
   job.steps.timed(thin.name, [&] { run_phase(job, thin); });
