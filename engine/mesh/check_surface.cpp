@@ -70,7 +70,7 @@ CheckResult inspect_edges(const TetMesh& mesh) {
 }
 
 /// Tags of a vertex that say that it is on something. A vertex may be required of itself.
-constexpr Tag kOnSomething = tag::kSurface | tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
+constexpr Tag kOnSomething = tag::kSurface | tag::kOnCurve;
 
 const char* name_of(Tag bit) {
   switch (bit) {

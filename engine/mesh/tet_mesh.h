@@ -73,8 +73,10 @@ inline constexpr Tag kPinched = 1024;
 inline constexpr Tag kInternal = 2048;
 /// Vertex that was on the interface between parts in a round of the last phase; for statistics.
 inline constexpr Tag kMetInterface = 4096;
+/// What makes an edge part of a feature curve; vertex: on one.
+inline constexpr Tag kOnCurve = kRidge | kReferenceEdge | kNonManifold;
 /// What makes a surface edge one that patches end at.
-inline constexpr Tag kFeature = kRidge | kReferenceEdge | kNonManifold | kRequired;
+inline constexpr Tag kFeature = kOnCurve | kRequired;
 }  // namespace tag
 
 /// Where a surface vertex stands on the frozen input surface: a facet of the snapshot and the

@@ -12,8 +12,6 @@ constexpr double kRelaxedLong = 1.4;
 /// nearly touch can only vanish along edges that are long.
 constexpr double kNeedle = 0.1, kNeedleLong = 3;
 
-constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
-
 int index_in(const Triangle& t, VertexId v) {
   return t.v[0] == v ? 0 : t.v[1] == v ? 1 : t.v[2] == v ? 2 : 3;
 }
@@ -33,7 +31,7 @@ Verdict may_merge(const OperatorContext& c) {
     const Triangle& t = c.mesh.triangles[at.triangle];
     const int ip = index_in(t, s.p), iq = index_in(t, s.q);
     const Tag edge = t.edge_tag[3 - ip - iq];
-    if (bool(p & kOnCurve) != bool(edge & tag::kFeature)) return Verdict::kBreaksFeature;
+    if (bool(p & tag::kOnCurve) != bool(edge & tag::kFeature)) return Verdict::kBreaksFeature;
     if ((edge | t.tags) & tag::kRequired) return Verdict::kBreaksFeature;
     // The triangle vanishes and its edge at p merges with its edge at q: a feature edge there would
     // meet itself (a closed curve of three edges) or pass to a triangle outside the cavity.
@@ -220,7 +218,7 @@ Verdict edge_collapse_of_ball(OperatorContext& c, bool quality_gain, Cavity& cav
     if (const Verdict v = check_link(c, c.fan); v != Verdict::kAccept) return v;
     make_triangles(c, c.fan, cavity);
     if (const Verdict v = check_surface(c, cavity); v != Verdict::kAccept) return v;
-    if (c.tags(s.p) & kOnCurve)
+    if (c.tags(s.p) & tag::kOnCurve)
       if (const Verdict v = check_curve(c, c.fan); v != Verdict::kAccept) return v;
   }
   cavity.removed_tets = c.ball.tets;

@@ -17,7 +17,6 @@ constexpr double kBadBall = 0.5;
 constexpr double kStill = 0.03;
 /// The mean quality of a ball must rise by this much where the worst does not.
 constexpr double kMeanGain = 0.002;
-constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
 
 struct BallQuality {
   double worst = 1, sum = 0;
@@ -121,13 +120,13 @@ Verdict check_fan(const OperatorContext& c, VertexId v, const NewVertex& to) {
 /// Where a surface vertex goes for a wished place: onto its curve or its patch.
 SurfacePoint on_surface(const OperatorContext& c, VertexId v, const Vec3& wish) {
   const Anchor hints[1] = {c.mesh.anchors[v]};
-  if (c.tags(v) & kOnCurve) return c.surface.place_on_curve(wish, hints);
+  if (c.tags(v) & tag::kOnCurve) return c.surface.place_on_curve(wish, hints);
   return c.surface.place(wish, c.mesh.triangles[c.fan[0]].patch, hints);
 }
 
 Vec3 surface_target(const OperatorContext& c, VertexId v) {
   std::array<VertexId, 2> ends;
-  if ((c.tags(v) & kOnCurve) && curve_neighbors(c, v, ends))
+  if ((c.tags(v) & tag::kOnCurve) && curve_neighbors(c, v, ends))
     return (c.point(ends[0]) + c.point(ends[1])) / 2;
   // Half way between what the surface and what the volume would like.
   Vec3 sum{};
@@ -172,7 +171,7 @@ Verdict relocate_on_surface(OperatorContext& c, VertexId v, NewVertex& to) {
   for (TriangleId t : c.fan)
     if (c.mesh.triangles[t].tags & tag::kRequired) return Verdict::kBreaksFeature;
   std::array<VertexId, 2> ends;
-  if ((c.tags(v) & kOnCurve) && !curve_neighbors(c, v, ends)) return Verdict::kBreaksFeature;
+  if ((c.tags(v) & tag::kOnCurve) && !curve_neighbors(c, v, ends)) return Verdict::kBreaksFeature;
   const BallQuality before = now(c);
   const bool off = c.tags(v) & tag::kOffSurface;
   const Vec3 from = c.point(v), target = off ? from : surface_target(c, v);

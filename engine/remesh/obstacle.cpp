@@ -25,8 +25,7 @@ constexpr double kNarrow = 0.3;
 /// alike, the quality is at most 0.3.
 constexpr double kNeedle = 0.2;
 /// Vertices on feature curves stay on them.
-constexpr Tag kOnCurve =
-    tag::kCorner | tag::kRidge | tag::kReferenceEdge | tag::kNonManifold | tag::kRequired;
+constexpr Tag kHeld = tag::kFeature | tag::kCorner;
 /// If all edges at a vertex are within this angle of each other, in degrees, its tets have at most
 /// a quality of 0.3: that of three edges of one length and 18.5 degrees apart.
 constexpr double kSmallTip = 18.5;
@@ -124,7 +123,7 @@ Bridge shortest_bridge(OperatorContext& c, TetId t) {
     const VertexId a = c.mesh.tets[t][e[0]], b = c.mesh.tets[t][e[1]];
     const double length = distance(c.point(a), c.point(b));
     longest = std::max(longest, length);
-    if (!(c.tags(a) & kOnCurve) || !(c.tags(b) & kOnCurve)) continue;
+    if (!(c.tags(a) & kHeld) || !(c.tags(b) & kHeld)) continue;
     const double in_sizes = c.length(a, b);
     if (in_sizes < shortest.in_sizes) shortest = {length, in_sizes};
   }
@@ -153,11 +152,11 @@ struct Strip {
 Strip narrowest_strip(OperatorContext& c, TetId t) {
   Strip narrowest;
   for (const VertexId v : c.mesh.tets[t]) {
-    if (!(c.tags(v) & kOnCurve)) continue;
+    if (!(c.tags(v) & kHeld)) continue;
     gather_ball(c.mesh, v, c.marker, c.ball);
     for_each_triangle(c.mesh, c.ball, [&](TriangleId id) {
       const Triangle& s = c.mesh.triangles[id];
-      if (std::ranges::all_of(s.v, [&](VertexId w) { return (c.tags(w) & kOnCurve) != 0; }))
+      if (std::ranges::all_of(s.v, [&](VertexId w) { return (c.tags(w) & kHeld) != 0; }))
         narrowest.add(c, s);
     });
   }

@@ -286,7 +286,7 @@ NewVertex straight_midpoint(const TetMesh& mesh, const MeshEdge& edge) {
   const float sa = mesh.sizes[edge.a], sb = mesh.sizes[edge.b];
   made.size = sa > 0 && sb > 0 ? (sa + sb) / 2 : std::max(sa, sb);
   if (edge.triangle == kNone) return made;
-  constexpr Tag kAlongEdge = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold | tag::kPinched;
+  constexpr Tag kAlongEdge = tag::kOnCurve | tag::kPinched;
   made.tags = tag::kSurface | (mesh.triangles[edge.triangle].edge_tag[edge.side] & kAlongEdge);
   made.anchor = mesh.anchors[edge.a];
   return made;

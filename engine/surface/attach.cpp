@@ -117,12 +117,11 @@ class Attachment {
   }
 
   void anchor(VertexId v, int patch) {
-    constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
     const Vec3 p = mesh_.points[v];
     Tag& tags = mesh_.vertex_tags[v];
     const double reach = std::numeric_limits<double>::infinity();
     Anchor& anchor = mesh_.anchors[v];
-    if ((tags & kOnCurve) && !(tags & tag::kCorner)) {
+    if ((tags & tag::kOnCurve) && !(tags & tag::kCorner)) {
       if (const auto near = nearest_curve(p, reach))
         anchor = {SurfaceModel::curve_anchor(near->edge), float(near->t), 0};
     } else if (const auto corner = model_.corner_near(p, kOnSurface * tolerance_)) {
@@ -133,7 +132,7 @@ class Attachment {
     if (tags & (tag::kCorner | tag::kRequired)) return;
     const Anchor hints[1] = {anchor};
     const SurfacePoint at =
-        (tags & kOnCurve) ? model_.place_on_curve(p, hints) : model_.place(p, patch, hints);
+        (tags & tag::kOnCurve) ? model_.place_on_curve(p, hints) : model_.place(p, patch, hints);
     const double limit = kOnSurface * tolerance_;
     if (at.anchor.facet != kNone && at.distance2 > limit * limit) tags |= tag::kOffSurface;
   }

@@ -30,8 +30,6 @@ class Components {
   std::vector<std::int32_t> parent_;
 };
 
-constexpr Tag kOnCurve = tag::kRidge | tag::kReferenceEdge | tag::kNonManifold;
-
 /// What meets at a vertex: its feature edges' other ends (the first two), their kinds, their
 /// number.
 struct FeatureStar {
@@ -261,7 +259,7 @@ void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars,
   for (std::size_t v = 0; v < stars.size(); ++v) {
     const FeatureStar& star = stars[v];
     if (star.fans == 0) continue;
-    m.vertex_tags[v] |= Tag(tag::kSurface | (star.all_kinds & (kOnCurve | tag::kPinched)));
+    m.vertex_tags[v] |= Tag(tag::kSurface | (star.all_kinds & (tag::kOnCurve | tag::kPinched)));
     if (star.fans > 1) m.vertex_tags[v] |= tag::kPinched;
     const bool is_tip = star.degree == 0 && sharpness.detect && tips.has(VertexId(v));
     if (is_tip || is_corner(m, VertexId(v), star, sharpness)) m.vertex_tags[v] |= tag::kCorner;

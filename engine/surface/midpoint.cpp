@@ -10,8 +10,7 @@ NewVertex midpoint(const TetMesh& m, const SurfaceModel& surface, VertexId a, Ve
   if (triangle == kNone) return v;
   const Triangle& t = m.triangles[triangle];
   const Tag edge = t.edge_tag[std::size_t(side)];
-  v.tags = Tag(tag::kSurface |
-               (edge & (tag::kRidge | tag::kReferenceEdge | tag::kNonManifold | tag::kPinched)));
+  v.tags = Tag(tag::kSurface | (edge & (tag::kOnCurve | tag::kPinched)));
   const Anchor hints[2] = {m.anchors[a], m.anchors[b]};
   const SurfacePoint at = edge & tag::kFeature ? surface.place_on_curve(v.point, hints)
                                                : surface.place(v.point, t.patch, hints);
