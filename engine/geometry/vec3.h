@@ -45,6 +45,11 @@ inline Vec3 normalized(const Vec3& a) {
   return n > 0 ? a * (1.0 / n) : Vec3{};
 }
 
+/// In radians; unlike an arc cosine as good as rounding allows next to 0 and pi, too.
+inline double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(norm(cross(a, b)), dot(a, b));
+}
+
 inline bool is_finite(const Vec3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }

@@ -82,8 +82,7 @@ double sharpest_tip(OperatorContext& c, TetId t) {
       if (c.mesh.local_index(t, s.v[j]) == 4 && c.mesh.local_index(t, s.v[k]) == 4) return;
       const Vec3 a = normalized(c.point(s.v[j]) - c.point(v)),
                  b = normalized(c.point(s.v[k]) - c.point(v));
-      sharpest =
-          std::min(sharpest, std::atan2(norm(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi);
+      sharpest = std::min(sharpest, angle_between(a, b) * 180 / std::numbers::pi);
     });
   }
   return sharpest;
@@ -102,7 +101,7 @@ double narrowest_point(OperatorContext& c, TetId t) {
         for (const VertexId b : c.mesh.tets[t]) {
           if (a == v || b == v) continue;
           const Vec3 x = c.point(a) - c.point(v), y = c.point(b) - c.point(v);
-          widest = std::max(widest, std::atan2(norm(cross(x, y)), dot(x, y)));
+          widest = std::max(widest, angle_between(x, y));
         }
     narrowest = std::min(narrowest, widest * 180 / std::numbers::pi);
   }

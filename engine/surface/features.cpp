@@ -242,7 +242,7 @@ class Tips {
   void add(VertexId v, VertexId a, VertexId b) {
     const Vec3 x = m_.points[a] - m_.points[v], y = m_.points[b] - m_.points[v];
     Fan& fan = fans_[v];
-    fan.angle += std::atan2(norm(cross(x, y)), dot(x, y));
+    fan.angle += angle_between(x, y);
     fan.ring = fan.ring + m_.points[a] + m_.points[b];
     ++fan.triangles;
   }
