@@ -23,6 +23,8 @@ class BoxTree {
   /// The slots of the boxes: the inverse of order().
   std::vector<std::int32_t> slots() const;
 
+  /// The box around what is below a node.
+  const Box& box_of(std::size_t node) const { return nodes_[node]; }
   /// For each node the box around what is below it, of other boxes of the same numbers.
   std::vector<Box> node_boxes(std::span<const Box> boxes) const;
 

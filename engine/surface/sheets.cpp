@@ -25,6 +25,8 @@ double least_dot(const Vec3& n, const Box& box) {
          std::min(n.z * box.low.z, n.z * box.high.z);
 }
 
+double most_dot(const Vec3& n, const Box& box) { return -least_dot(-n, box); }
+
 }  // namespace
 
 Sheets::Sheets(std::vector<Corners> triangles, std::vector<std::array<std::int32_t, 3>> vertices,
@@ -98,8 +100,13 @@ std::vector<double> Sheets::all_opposite(const Facing& facing,
         box.add(b), box.add(c);
         box = {box.low - Vec3{r, r, r}, box.high + Vec3{r, r, r}};
         hits[t].distance2 = r * r;
-        // Most of what is near is the sheet of t itself, which turns away from it nowhere.
-        const auto may = [&](std::size_t node) { return some_may_face(t, node, facing); };
+        // Most of what is near is the sheet of t itself, which turns away from it nowhere, or, in
+        // thin bodies, that on their other side, which is all behind its plane.
+        const Vec3 ahead = facing.side * normals_[t];
+        const double plane = std::min({dot(ahead, a), dot(ahead, b), dot(ahead, c)});
+        const auto may = [&](std::size_t node) {
+          return some_may_face(t, node, facing) && !(most_dot(ahead, tree_.box_of(node)) < plane);
+        };
         tree_.visit_overlapping(box, may, [&](std::size_t slot) {
           const auto s = std::size_t(tree_.order()[slot]);
           if (!may_face(t, s, facing)) return;
