@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cavea/base/parallel.h"
 #include "cavea/part/interface_quality.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/stubborn.h"
@@ -77,15 +78,18 @@ void conclude(Job& job, const SurfaceDistance& distance) {
   const TetMesh& mesh = job.mesh;
   report.surface_distance = distance.max();
   report.bulge = job.surface.bulge();
-  report.after = is_as_before(job) ? report.before : summary_of(mesh);
-  report.interface_quality = interface_quality(mesh);
+  std::vector<Crossing> crossings;
+  run_together([&] { crossings = find_crossings(mesh); },
+               [&] {
+                 report.after = is_as_before(job) ? report.before : summary_of(mesh);
+                 report.interface_quality = interface_quality(mesh);
+               });
   report.verdicts = counts_of(job.verdicts);
   report.stubborn = find_stubborn(mesh, job.surface.working_model(), last_phase(job.r).cycle,
                                   job.options.min_quality);
   report.finer = job.sizes.finer();
   report.hausd = job.r.hausd, report.hmin = job.r.hmin, report.hmax = job.r.hmax,
   report.hgrad = job.r.hgrad;
-  const std::vector<Crossing> crossings = find_crossings(mesh);
   report.targets = targets_of(job, distance, crossings);
   warn_of_crossings(job, crossings);
 }

@@ -1,6 +1,7 @@
 #include "cavea/remesh/run.h"
 
 #include "cavea/base/memory.h"
+#include "cavea/base/parallel.h"
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/conclusion.h"
 #include "cavea/remesh/filling.h"
@@ -53,8 +54,9 @@ void Run::analyse() {
   TetMesh& mesh = job_.mesh;
   MeshSummary& before = job_.report.before;
   before.counts = count(mesh);
-  before.quality = quality_statistics(mesh);
-  job_.surface.take(mesh);
+  // Which look at vertices and tets alone, and to tags and triangles.
+  run_together([&] { before.quality = quality_statistics(mesh); },
+               [&] { job_.surface.take(mesh); });
   ask_all(mesh);
   job_.sizes.look_at(mesh);
   job_.resize();
