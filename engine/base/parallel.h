@@ -4,7 +4,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 #include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 
@@ -61,22 +60,22 @@ void parallel_for(std::size_t n, F&& f, std::size_t grain = 1024,
       partitioner);
 }
 
-/// Calls f() and g() at the same time, if there is a thread for each: while one of them has work
-/// for one thread only, the other goes on.
-template <class F, class G>
-void run_together(F&& f, G&& g) {
-  ForkJoin fork;
-  const auto watched = [&](auto& work) {
-    const ForkJoin::Task task(fork);
-    work();
-  };
-  tbb::parallel_invoke([&] { watched(f); }, [&] { watched(g); });
-}
-
 /// Calls f(i) for each i in [0, n), one task each, started in the order of i: for few large tasks.
 template <class F>
 void parallel_tasks(std::size_t n, F&& f) {
   parallel_for(n, f, 1, tbb::simple_partitioner{});
+}
+
+/// Calls f() and g() at the same time, if there is a thread for each: while one of them has work
+/// for one thread only, the other goes on.
+template <class F, class G>
+void run_together(F&& f, G&& g) {
+  parallel_tasks(2, [&](std::size_t i) {
+    if (i == 0)
+      f();
+    else
+      g();
+  });
 }
 
 /// Blocks of this many items are reduced one after the other, whatever the number of threads.

@@ -60,15 +60,15 @@ std::vector<Target> targets_of(const Job& job, const SurfaceDistance& distance,
 }
 
 /// A result that crosses itself may have that from its input.
-void warn_of_crossings(Job& job, const std::vector<Crossing>& of_result) {
-  if (of_result.empty()) return;
+std::vector<std::string> warnings_of(const Job& job, const std::vector<Crossing>& of_result) {
+  if (of_result.empty()) return {};
   const std::vector<Crossing> crossings =
       job.input.is_lent() ? of_result : find_crossings(job.input.mesh());
-  if (crossings.empty()) return;
-  job.report.warnings.push_back(
+  if (crossings.empty()) return {};
+  return {
       fmt::format("the surface of the input passes through itself: {} pairs of triangles, the "
                   "first near {}",
-                  crossings.size(), to_text(crossings.front().where)));
+                  crossings.size(), to_text(crossings.front().where))};
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ void conclude(Job& job, const SurfaceDistance& distance) {
   report.hausd = job.r.hausd, report.hmin = job.r.hmin, report.hmax = job.r.hmax,
   report.hgrad = job.r.hgrad;
   report.targets = targets_of(job, distance, crossings);
-  warn_of_crossings(job, crossings);
+  report.warnings = warnings_of(job, crossings);
 }
 
 }  // namespace cavea
