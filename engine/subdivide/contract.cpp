@@ -41,9 +41,11 @@ class Contraction {
   std::optional<TetMesh> operator()() {
     throw_if_cancelled(cancel_);
     choose_kept();
-    const std::size_t wanted = choose_images();
-    if (double(wanted) < limits_.worthwhile * double(mesh_.points.size())) return std::nullopt;
+    choose_images();
+    if (!is_worthwhile()) return std::nullopt;
     while (give_way()) throw_if_cancelled(cancel_);
+    // Who asks again until nothing is left to gain is to come to an end.
+    if (!is_worthwhile()) return std::nullopt;
     return make();
   }
 
@@ -94,24 +96,27 @@ class Contraction {
       });
   }
 
-  /// \return how many vertices are to go
-  std::size_t choose_images() {
+  void choose_images() {
     image_.resize(mesh_.points.size());
     waking_.resize(image_.size());
     changed_.resize(image_.size());
-    return parallel_reduce(
+    parallel_for(image_.size(), [&](std::size_t v) {
+      image_[v] = state_[v] == State::kGoes ? next_image(VertexId(v), {-1, kNone}) : VertexId(v);
+      changed_[v] = image_[v] != VertexId(v);
+    });
+  }
+
+  /// Whether so many vertices go.
+  bool is_worthwhile() const {
+    const auto going = parallel_reduce(
         image_.size(), std::size_t{0},
         [&](std::size_t begin, std::size_t end) {
-          std::size_t going = 0;
-          for (std::size_t v = begin; v < end; ++v) {
-            image_[v] =
-                state_[v] == State::kGoes ? next_image(VertexId(v), {-1, kNone}) : VertexId(v);
-            changed_[v] = image_[v] != VertexId(v);
-            going += changed_[v];
-          }
-          return going;
+          std::size_t moved = 0;
+          for (std::size_t v = begin; v < end; ++v) moved += image_[v] != VertexId(v);
+          return moved;
         },
         std::plus<>{});
+    return double(going) >= limits_.worthwhile * double(image_.size());
   }
 
   using Candidate = std::pair<double, VertexId>;  ///< the square of its distance comes first

@@ -13,7 +13,7 @@ struct ContractionLimits {
   double long_edge = 0;
   /// nor a lower quality; at least kFlat, so that it is certainly positive.
   double least_quality = 0;
-  /// Of the vertices as many as this share must have one to go to, or it is not worth while.
+  /// Of the vertices at least this share must go, or it is not worth while; positive.
   double worthwhile = 0;
 };
 

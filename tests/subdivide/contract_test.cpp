@@ -89,6 +89,13 @@ TEST(Contract, DoesNothingWhereFewWouldGo) {
   EXPECT_FALSE(contracted(mesh, kLimits));
 }
 
+TEST(Contract, DoesNothingWhereNoneCanGo) {
+  const TetMesh mesh = fine_cube(12, 0.3, 5);
+  ContractionLimits limits = kLimits;
+  limits.long_edge = 0.1;  // every tet that would change has a longer one
+  EXPECT_FALSE(contracted(mesh, limits));
+}
+
 TEST(Contract, AsksOnlyTetsThatChange) {
   TetMesh mesh = fine_cube(12, 0.1, 11);
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
