@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "cavea/base/scatter.h"
 #include "cavea/operator/pattern_search.h"
 
 namespace cavea {
@@ -232,14 +233,9 @@ Verdict relocate_inside(OperatorContext& c, VertexId v, NewVertex& to) {
 
 /// A unit vector that looks random and depends on the bits of a place.
 Vec3 direction_of(const Vec3& p) {
-  auto mix = [](std::uint64_t h) {  // splitmix64
-    h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9u;
-    h = (h ^ (h >> 27)) * 0x94D049BB133111EBu;
-    return h ^ (h >> 31);
-  };
-  std::uint64_t h = 0x9E3779B97F4A7C15u;
-  for (const double x : {p.x, p.y, p.z}) h = mix(h + std::bit_cast<std::uint64_t>(x));
-  auto next = [&] { return double((h = mix(h + 1)) >> 11) * 0x1p-52 - 1; };
+  std::uint64_t h = kScatterStart;
+  for (const double x : {p.x, p.y, p.z}) h = scatter(h + std::bit_cast<std::uint64_t>(x));
+  auto next = [&] { return double((h = scatter(h + 1)) >> 11) * 0x1p-52 - 1; };
   Vec3 d;
   d.x = next(), d.y = next(), d.z = next();
   return normalized(d);

@@ -9,6 +9,7 @@
 #include "cavea/base/buckets.h"
 #include "cavea/base/cancel.h"
 #include "cavea/base/parallel.h"
+#include "cavea/base/scatter.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/edge_shares.h"
@@ -19,14 +20,8 @@ namespace {
 
 using Corners = std::array<VertexId, 4>;
 
-/// Neighbours need different ranks, and no order along the numbering of the mesh: the finisher of
-/// splitmix64, which maps no two ids to one number.
-std::uint64_t rank_of(VertexId v) {
-  auto x = std::uint64_t(v) + 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
+/// Neighbours need different ranks, and no order along the numbering of the mesh.
+std::uint64_t rank_of(VertexId v) { return scatter(kScatterStart + std::uint64_t(v)); }
 
 bool is_degenerate(const Corners& k) {
   return k[0] == k[1] || k[0] == k[2] || k[0] == k[3] || k[1] == k[2] || k[1] == k[3] ||
