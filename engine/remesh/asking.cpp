@@ -5,17 +5,6 @@
 #include "cavea/base/parallel.h"
 
 namespace cavea {
-namespace {
-
-template <class Ask>
-void ask_lengths_where(TetMesh& m, Ask&& ask) {
-  parallel_for(m.tets.size(), [&](std::size_t t) {
-    if (m.tet_alive(TetId(t)) && std::ranges::any_of(m.tets[t], ask))
-      m.tet_flags[t] |= tet_flag::kAskLength;
-  });
-}
-
-}  // namespace
 
 void ask_all(TetMesh& mesh, std::uint8_t what) {
   for (std::uint8_t& flags : mesh.tet_flags) flags |= what;
@@ -36,12 +25,12 @@ bool is_nothing_asked(const TetMesh& mesh) {
                               [](std::uint8_t flags) { return flags & tet_flag::kAskAll; });
 }
 
-void ask_lengths(TetMesh& mesh) {
-  ask_lengths_where(mesh, [](VertexId) { return true; });
-}
-
 void ask_changed_lengths(TetMesh& mesh, const std::vector<float>& sizes_before) {
-  ask_lengths_where(mesh, [&](VertexId v) { return mesh.sizes[v] != sizes_before[v]; });
+  const auto has_changed = [&](VertexId v) { return mesh.sizes[v] != sizes_before[v]; };
+  parallel_for(mesh.tets.size(), [&](std::size_t t) {
+    if (mesh.tet_alive(TetId(t)) && std::ranges::any_of(mesh.tets[t], has_changed))
+      mesh.tet_flags[t] |= tet_flag::kAskLength;
+  });
 }
 
 }  // namespace cavea

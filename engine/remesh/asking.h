@@ -17,9 +17,6 @@ void ask_below(TetMesh& mesh, double quality);
 void ask_nothing(TetMesh& mesh);
 bool is_nothing_asked(const TetMesh& mesh);
 
-/// Asks the lengths of all tets again.
-void ask_lengths(TetMesh& mesh);
-
 /// Asks the lengths of tets at vertices whose wanted size was another one.
 void ask_changed_lengths(TetMesh& mesh, const std::vector<float>& sizes_before);
 

@@ -72,12 +72,10 @@ bool is_worth_bulk(const TetMesh& mesh, BulkEdges which) {
 }  // namespace
 
 std::optional<TetMesh> coarsened_in_bulk(const TetMesh& mesh, const std::atomic<bool>* cancel) {
-  std::optional<TetMesh> coarse = contracted(mesh, kContraction, cancel);
-  while (coarse) {
-    std::optional<TetMesh> coarser = contracted(*coarse, kContraction, cancel);
-    if (!coarser) break;
-    coarse = std::move(coarser);
-  }
+  std::optional<TetMesh> coarse;
+  for (auto next = contracted(mesh, kContraction, cancel); next;
+       next = contracted(*coarse, kContraction, cancel))
+    coarse = std::move(next);
   return coarse;
 }
 

@@ -53,7 +53,8 @@ void run_phase(Job& job, const Phase& phase) {
   for (int round = 1; is_to_go_on(job, phase, round); ++round) {
     job.steps.tell(phase.name, round);
     refuse_too_large(mesh, job.most_bytes);
-    if (phase.resize && round > 1 && job.sizes.vary()) job.resize(), ask_lengths(mesh);
+    if (phase.resize && round > 1 && job.sizes.vary())
+      job.resize(), ask_all(mesh, tet_flag::kAskLength);
     if (is_all_done(job)) break;
     if (phase.growth > 0) settings.most_tets = most_tets_of_part(job, phase, size);
     const RoundResult result =

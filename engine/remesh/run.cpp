@@ -54,7 +54,7 @@ void Run::analyse() {
   TetMesh& mesh = job_.mesh;
   MeshSummary& before = job_.report.before;
   before.counts = count(mesh);
-  // Which look at vertices and tets alone, and to tags and triangles.
+  // The statistics read places and tets, which nothing of the surface changes.
   run_together([&] { before.quality = quality_statistics(mesh); },
                [&] { job_.surface.take(mesh); });
   ask_all(mesh);

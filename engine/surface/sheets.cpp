@@ -98,7 +98,7 @@ std::vector<double> Sheets::all_opposite(const Facing& facing,
         const auto& [a, b, c] = triangles_[t];
         Box box{a, a};
         box.add(b), box.add(c);
-        box = {box.low - Vec3{r, r, r}, box.high + Vec3{r, r, r}};
+        box = box.widened(r);
         hits[t].distance2 = r * r;
         // Most of what is near is the sheet of t itself, which turns away from it nowhere, or, in
         // thin bodies, that on their other side, which is all behind its plane.
