@@ -63,9 +63,4 @@ Verdict compare_fits(const SurfaceFit& after, const SurfaceFit& before) {
   return Verdict::kAccept;
 }
 
-Verdict judge_surface(const OperatorContext& c, const SurfaceFit& fit,
-                      const std::vector<TriangleId>& old) {
-  return fits_well(fit) ? Verdict::kAccept : compare_fits(fit, fit_of(c, old));
-}
-
 }  // namespace cavea

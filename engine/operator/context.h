@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "cavea/cavity/cavity.h"
@@ -113,9 +114,20 @@ bool fits_well(const SurfaceFit& fit);
 /// What does not fit well may still be no worse than what it replaces.
 Verdict compare_fits(const SurfaceFit& after, const SurfaceFit& before);
 
-/// Whether new surface triangles may replace `old` ones: not turned away from the ideal surface and
-/// within the tolerance of it, or at least no worse in that than the old ones.
-Verdict judge_surface(const OperatorContext& context, const SurfaceFit& fit,
-                      const std::vector<TriangleId>& old);
+/// Whether `count` new surface triangles may replace what is there: not turned away from the ideal
+/// surface and within the tolerance of it, or at least no worse in that than what is there.
+/// `fit_of_new(k)` is the fit of one of them, `fit_of_old()` that of what is there. The latter is
+/// asked for at the first misfit, and decides at once where it is none.
+template <class FitOfNew, class FitOfOld>
+Verdict judge_surface(std::size_t count, FitOfNew&& fit_of_new, FitOfOld&& fit_of_old) {
+  SurfaceFit after;
+  std::optional<SurfaceFit> before;
+  for (std::size_t k = 0; k < count; ++k) {
+    after.add(fit_of_new(k));
+    if (!before && !fits_well(after)) before = fit_of_old();
+    if (before && fits_well(*before)) break;
+  }
+  return before ? compare_fits(after, *before) : Verdict::kAccept;
+}
 
 }  // namespace cavea

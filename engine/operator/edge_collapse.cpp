@@ -122,13 +122,14 @@ Verdict check_surface(const OperatorContext& c, const Cavity& cavity) {
     }
     if (nearest2 > c.tolerance2(c.mesh.anchors[s.p])) return Verdict::kOffSurface;
   }
-  SurfaceFit fit;
-  for (const Triangle& t : cavity.triangles) {
+  const auto fit_of_new = [&](std::size_t k) {
+    const Triangle& t = cavity.triangles[k];
     const Anchor hints[4] = {c.mesh.anchors[t.v[0]], c.mesh.anchors[t.v[1]], c.mesh.anchors[t.v[2]],
                              c.mesh.anchors[s.p]};
-    fit.add(fit_triangle(c, corners(t), t.patch, hints));
-  }
-  return judge_surface(c, fit, cavity.removed_triangles);
+    return fit_triangle(c, corners(t), t.patch, hints);
+  };
+  return judge_surface(cavity.triangles.size(), fit_of_new,
+                       [&] { return fit_of(c, cavity.removed_triangles); });
 }
 
 /// On a feature curve: the edge that bridges p stays near the curve and near p, and does not turn.

@@ -108,11 +108,13 @@ Verdict swap_triangles(OperatorContext& c, Cavity& cavity) {
   }
   const Anchor hints[4] = {c.mesh.anchors[s.p], c.mesh.anchors[s.q], c.mesh.anchors[a],
                            c.mesh.anchors[b]};
-  SurfaceFit fit;
-  for (const Triangle& t : cavity.triangles)
-    fit.add(fit_triangle(c, {c.point(t.v[0]), c.point(t.v[1]), c.point(t.v[2])}, t.patch, hints));
   cavity.removed_triangles = {s.triangles[0].triangle, s.triangles[1].triangle};
-  return judge_surface(c, fit, cavity.removed_triangles);
+  const auto fit_of_new = [&](std::size_t k) {
+    const Triangle& t = cavity.triangles[k];
+    return fit_triangle(c, {c.point(t.v[0]), c.point(t.v[1]), c.point(t.v[2])}, t.patch, hints);
+  };
+  return judge_surface(cavity.triangles.size(), fit_of_new,
+                       [&] { return fit_of(c, cavity.removed_triangles); });
 }
 
 }  // namespace

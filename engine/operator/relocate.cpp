@@ -93,29 +93,31 @@ bool curve_neighbors(const OperatorContext& c, VertexId v, std::array<VertexId, 
   return n == 2;
 }
 
-/// Fit of the fan with its vertex at `to`. The rim does not move; a spoke within a patch is sampled
-/// once, one on a curve with each of its triangles, since these may be of different patches; so are
-/// those of interfaces, whose triangles need not be oriented alike.
-SurfaceFit fan_fit(const OperatorContext& c, VertexId v, const Vec3& to, const Anchor& at) {
-  SurfaceFit fit;
-  for (TriangleId id : c.fan) {
-    const Triangle& t = c.mesh.triangles[id];
-    const std::size_t i = t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2, before = (i + 2) % 3;
-    std::array<Vec3, 3> x;
-    for (std::size_t k = 0; k < 3; ++k) x[k] = k == i ? to : c.point(t.v[k]);
-    const Anchor hints[3] = {at, c.mesh.anchors[t.v[i == 0 ? 1 : 0]], c.mesh.anchors[v]};
-    unsigned sides = 1u << i;
-    // The side that ends at v lies opposite the next corner.
-    if ((t.edge_tag[(i + 1) % 3] & tag::kFeature) || t.sides[1].is_tet()) sides |= 1u << before;
-    fit.add(fit_triangle(c, x, t.patch, hints, sides));
-  }
-  return fit;
+/// Fit of one triangle of the fan with the fan's vertex v at `to`. The rim does not move; a spoke
+/// within a patch is sampled once, one on a curve with each of its triangles, since these may be of
+/// different patches; so are those of interfaces, whose triangles need not be oriented alike.
+SurfaceFit fit_in_fan(const OperatorContext& c, TriangleId id, VertexId v, const Vec3& to,
+                      const Anchor& at) {
+  const Triangle& t = c.mesh.triangles[id];
+  const std::size_t i = t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2, before = (i + 2) % 3;
+  std::array<Vec3, 3> x;
+  for (std::size_t k = 0; k < 3; ++k) x[k] = k == i ? to : c.point(t.v[k]);
+  const Anchor hints[3] = {at, c.mesh.anchors[t.v[i == 0 ? 1 : 0]], c.mesh.anchors[v]};
+  unsigned sides = 1u << i;
+  // The side that ends at v lies opposite the next corner.
+  if ((t.edge_tag[(i + 1) % 3] & tag::kFeature) || t.sides[1].is_tet()) sides |= 1u << before;
+  return fit_triangle(c, x, t.patch, hints, sides);
 }
 
 Verdict check_fan(const OperatorContext& c, VertexId v, const NewVertex& to) {
-  const SurfaceFit fit = fan_fit(c, v, to.point, to.anchor);
-  if (fits_well(fit)) return Verdict::kAccept;
-  return compare_fits(fit, fan_fit(c, v, c.point(v), c.mesh.anchors[v]));
+  return judge_surface(
+      c.fan.size(), [&](std::size_t k) { return fit_in_fan(c, c.fan[k], v, to.point, to.anchor); },
+      [&] {
+        SurfaceFit now;
+        for (const TriangleId t : c.fan)
+          now.add(fit_in_fan(c, t, v, c.point(v), c.mesh.anchors[v]));
+        return now;
+      });
 }
 
 /// Where a surface vertex goes for a wished place: onto its curve or its patch.

@@ -225,17 +225,18 @@ bool SurfaceInsert::is_flat() const {
 Verdict SurfaceInsert::judge(VertexId id, const Cavity& cavity) const {
   if (cavity.removed_triangles.size() == c_.shell.triangles.size() || is_flat())
     return Verdict::kAccept;
-  SurfaceFit fit;
-  for (const Triangle& t : cavity.triangles) {
+  const auto fit_of_new = [&](std::size_t i) {
+    const Triangle& t = cavity.triangles[i];
     std::array<Vec3, 3> x;
     std::array<Anchor, 3> hints;
     for (std::size_t k = 0; k < 3; ++k) {
       x[k] = t.v[k] == id ? vertex_.point : c_.point(t.v[k]);
       hints[k] = t.v[k] == id ? vertex_.anchor : c_.mesh.anchors[t.v[k]];
     }
-    fit.add(fit_triangle(c_, x, t.patch, hints));
-  }
-  return judge_surface(c_, fit, cavity.removed_triangles);
+    return fit_triangle(c_, x, t.patch, hints);
+  };
+  return judge_surface(cavity.triangles.size(), fit_of_new,
+                       [&] { return fit_of(c_, cavity.removed_triangles); });
 }
 
 Verdict SurfaceInsert::try_cavity(const EdgeOnSurface& edge, VertexId id, bool wide,
