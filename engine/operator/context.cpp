@@ -35,6 +35,29 @@ SurfaceFit fit_triangle(const OperatorContext& context, const std::array<Vec3, 3
   return fit;
 }
 
+unsigned sides_at(const Triangle& t, std::size_t i) {
+  unsigned sides = 1u << i;
+  // The side that ends at corner i lies opposite the next one.
+  if ((t.edge_tag[(i + 1) % 3] & tag::kFeature) || t.sides[1].is_tet()) sides |= 1u << (i + 2) % 3;
+  return sides;
+}
+
+SurfaceFit fit_in_fan(const OperatorContext& c, TriangleId id, VertexId v, const Vec3& to,
+                      const Anchor& at) {
+  const Triangle& t = c.mesh.triangles[id];
+  const std::size_t i = t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2;
+  std::array<Vec3, 3> x;
+  for (std::size_t k = 0; k < 3; ++k) x[k] = k == i ? to : c.point(t.v[k]);
+  const Anchor hints[3] = {at, c.mesh.anchors[t.v[i == 0 ? 1 : 0]], c.mesh.anchors[v]};
+  return fit_triangle(c, x, t.patch, hints, sides_at(t, i));
+}
+
+SurfaceFit fit_of_fan(const OperatorContext& c, VertexId v, const std::vector<TriangleId>& fan) {
+  SurfaceFit fit;
+  for (const TriangleId t : fan) fit.add(fit_in_fan(c, t, v, c.point(v), c.mesh.anchors[v]));
+  return fit;
+}
+
 SurfaceFit fit_of(const OperatorContext& c, const std::vector<TriangleId>& triangles) {
   SurfaceFit fit;
   for (TriangleId id : triangles) {

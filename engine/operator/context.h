@@ -105,6 +105,19 @@ struct SurfaceFit {
 SurfaceFit fit_triangle(const OperatorContext& context, const std::array<Vec3, 3>& corners,
                         int patch, std::span<const Anchor> hints, unsigned sides = 7);
 
+/// The sides at corner i of a triangle to sample where all triangles around that corner are: a side
+/// within a patch once, one on a curve with each of its triangles, since these may be of different
+/// patches; so are those of interfaces, whose triangles need not be oriented alike.
+unsigned sides_at(const Triangle& triangle, std::size_t i);
+
+/// Fit of a triangle of the mesh if its corner v were at `to`, sampled at its sides there.
+SurfaceFit fit_in_fan(const OperatorContext& context, TriangleId id, VertexId v, const Vec3& to,
+                      const Anchor& at);
+
+/// Fit of the triangles of a fan around v as they stand; the rim, which stays, is not sampled.
+SurfaceFit fit_of_fan(const OperatorContext& context, VertexId v,
+                      const std::vector<TriangleId>& fan);
+
 /// Fit of triangles of the mesh as they stand.
 SurfaceFit fit_of(const OperatorContext& context, const std::vector<TriangleId>& triangles);
 

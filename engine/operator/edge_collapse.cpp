@@ -107,6 +107,15 @@ void make_triangles(const OperatorContext& c, const std::vector<TriangleId>& fan
   }
 }
 
+/// Sides of a new triangle that were not there before: neither of the rim nor where edges merge.
+unsigned new_sides(const Shell& s, const Triangle& t) {
+  const auto i = std::size_t(index_in(t, s.q)), next = (i + 1) % 3, before = (i + 2) % 3;
+  unsigned sides = sides_at(t, i);
+  if (is_third(s, t.v[next])) sides &= ~(1u << i);
+  if (is_third(s, t.v[before])) sides &= ~(1u << before);
+  return sides;
+}
+
 /// The new surface stays near the ideal one, and near the vertex that goes unless that was off it.
 Verdict check_surface(const OperatorContext& c, const Cavity& cavity) {
   const Shell& s = c.shell;
@@ -126,10 +135,10 @@ Verdict check_surface(const OperatorContext& c, const Cavity& cavity) {
     const Triangle& t = cavity.triangles[k];
     const Anchor hints[4] = {c.mesh.anchors[t.v[0]], c.mesh.anchors[t.v[1]], c.mesh.anchors[t.v[2]],
                              c.mesh.anchors[s.p]};
-    return fit_triangle(c, corners(t), t.patch, hints);
+    return fit_triangle(c, corners(t), t.patch, hints, new_sides(s, t));
   };
   return judge_surface(cavity.triangles.size(), fit_of_new,
-                       [&] { return fit_of(c, cavity.removed_triangles); });
+                       [&] { return fit_of_fan(c, s.p, cavity.removed_triangles); });
 }
 
 /// On a feature curve: the edge that bridges p stays near the curve and near p, and does not turn.

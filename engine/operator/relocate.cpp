@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "cavea/base/scatter.h"
 #include "cavea/operator/pattern_search.h"
@@ -93,32 +94,29 @@ bool curve_neighbors(const OperatorContext& c, VertexId v, std::array<VertexId, 
   return n == 2;
 }
 
-/// Fit of one triangle of the fan with the fan's vertex v at `to`. The rim does not move; a spoke
-/// within a patch is sampled once, one on a curve with each of its triangles, since these may be of
-/// different patches; so are those of interfaces, whose triangles need not be oriented alike.
-SurfaceFit fit_in_fan(const OperatorContext& c, TriangleId id, VertexId v, const Vec3& to,
-                      const Anchor& at) {
-  const Triangle& t = c.mesh.triangles[id];
-  const std::size_t i = t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2, before = (i + 2) % 3;
-  std::array<Vec3, 3> x;
-  for (std::size_t k = 0; k < 3; ++k) x[k] = k == i ? to : c.point(t.v[k]);
-  const Anchor hints[3] = {at, c.mesh.anchors[t.v[i == 0 ? 1 : 0]], c.mesh.anchors[v]};
-  unsigned sides = 1u << i;
-  // The side that ends at v lies opposite the next corner.
-  if ((t.edge_tag[(i + 1) % 3] & tag::kFeature) || t.sides[1].is_tet()) sides |= 1u << before;
-  return fit_triangle(c, x, t.patch, hints, sides);
-}
+/// Judges places for the vertex of a fan.
+class FanJudge {
+ public:
+  FanJudge(const OperatorContext& c, VertexId v) : c_(c), v_(v) {}
 
-Verdict check_fan(const OperatorContext& c, VertexId v, const NewVertex& to) {
-  return judge_surface(
-      c.fan.size(), [&](std::size_t k) { return fit_in_fan(c, c.fan[k], v, to.point, to.anchor); },
-      [&] {
-        SurfaceFit now;
-        for (const TriangleId t : c.fan)
-          now.add(fit_in_fan(c, t, v, c.point(v), c.mesh.anchors[v]));
-        return now;
-      });
-}
+  Verdict operator()(const NewVertex& to) {
+    return judge_surface(
+        c_.fan.size(),
+        [&](std::size_t k) { return fit_in_fan(c_, c_.fan[k], v_, to.point, to.anchor); },
+        [&] { return as_it_is(); });
+  }
+
+ private:
+  /// Asked for once, for all places that do not fit.
+  const SurfaceFit& as_it_is() {
+    if (!as_it_is_) as_it_is_ = fit_of_fan(c_, v_, c_.fan);
+    return *as_it_is_;
+  }
+
+  const OperatorContext& c_;
+  VertexId v_;
+  std::optional<SurfaceFit> as_it_is_;
+};
 
 /// Where a surface vertex goes for a wished place: onto its curve or its patch.
 SurfacePoint on_surface(const OperatorContext& c, VertexId v, const Vec3& wish) {
@@ -140,7 +138,8 @@ Vec3 surface_target(const OperatorContext& c, VertexId v) {
 }
 
 /// The same as climb() for a surface vertex: every place tried is on the surface.
-Verdict climb_on_surface(OperatorContext& c, VertexId v, const BallQuality& before, NewVertex& to) {
+Verdict climb_on_surface(OperatorContext& c, VertexId v, const BallQuality& before, FanJudge& judge,
+                         NewVertex& to) {
   constexpr double kFirstStep = 0.15;
   // The way down to the surface is short, and changes qualities little.
   constexpr double kHopeless = 0.5;
@@ -158,7 +157,7 @@ Verdict climb_on_surface(OperatorContext& c, VertexId v, const BallQuality& befo
   to.point = at.point;
   to.anchor = at.anchor;
   if (!evaluate(c, to.point, before.worst, after)) return Verdict::kWorseQuality;
-  return check_fan(c, v, to);
+  return judge(to);
 }
 
 /// Whether a vertex is so near its target that its ball would hardly gain.
@@ -179,6 +178,7 @@ Verdict relocate_on_surface(OperatorContext& c, VertexId v, NewVertex& to) {
   const bool off = c.tags(v) & tag::kOffSurface;
   const Vec3 from = c.point(v), target = off ? from : surface_target(c, v);
   if (!off && stands_still(target, before, to)) return Verdict::kNotNeeded;
+  FanJudge judge(c, v);
   Verdict why = Verdict::kWorseQuality;
   for (const double share : kShares) {
     const SurfacePoint at = on_surface(c, v, from + share * (target - from));
@@ -190,12 +190,12 @@ Verdict relocate_on_surface(OperatorContext& c, VertexId v, NewVertex& to) {
     const double lowest = off ? std::max(kFlat, c.lowest_allowed(before.worst)) : before.worst;
     if (!evaluate(c, to.point, lowest, after)) continue;
     if (!off && !better(after, before, c.ball.tets.size())) continue;
-    if (why = check_fan(c, v, to); why != Verdict::kAccept) continue;
+    if (why = judge(to); why != Verdict::kAccept) continue;
     if (off && share == 1) to.tags &= Tag(~tag::kOffSurface);
     return Verdict::kAccept;
   }
   if (off || before.worst >= kBadBall) return why;
-  return climb_on_surface(c, v, before, to);
+  return climb_on_surface(c, v, before, judge, to);
 }
 
 bool move_towards(OperatorContext& c, VertexId v, const Vec3& target, const BallQuality& before,
