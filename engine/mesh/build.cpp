@@ -12,6 +12,7 @@
 #include "cavea/mesh/features.h"
 #include "cavea/mesh/internal_sheets.h"
 #include "cavea/mesh/orient_flat.h"
+#include "cavea/mesh/peel_flat.h"
 #include "cavea/mesh/renumber.h"
 
 namespace cavea {
@@ -295,6 +296,28 @@ void take_normals(const MeshData& data, const std::vector<VertexId>& new_vertex,
   all.erase(std::unique(all.begin(), all.end(), of_one), all.end());
 }
 
+/// Flat tets that hide vertices of the boundary go; the new numbers of vertices are kept in step.
+void peel(const MeshData& data, std::vector<VertexId>& new_vertex, BuildResult& out) {
+  if (!data.required_tets.empty()) return;
+  std::vector<VertexId> kept;
+  for (const auto* listed : {&data.corners, &data.required_vertices})
+    for (const std::int32_t v : *listed) kept.push_back(new_vertex[v]);
+  const Peeled peeled = peel_flat_tets(out.mesh, kept);
+  out.summary.peeled_tets = peeled.tets;
+  if (peeled.vertices.empty()) return;
+  for (std::size_t v = 0; v < new_vertex.size(); ++v) {
+    if (new_vertex[v] == kNone) continue;
+    const auto at = std::ranges::lower_bound(peeled.vertices, new_vertex[v]);
+    if (at != peeled.vertices.end() && *at == new_vertex[v]) {
+      new_vertex[v] = kNone;
+      out.unused_vertices.push_back(std::int32_t(v));
+    } else {
+      new_vertex[v] -= VertexId(at - peeled.vertices.begin());
+    }
+  }
+  std::ranges::sort(out.unused_vertices);
+}
+
 }  // namespace
 
 std::vector<std::string> BuildSummary::warnings() const {
@@ -305,6 +328,8 @@ std::vector<std::string> BuildSummary::warnings() const {
   warn(turned_tets, "tet of negative volume was turned over",
        "tets of negative volume were turned over");
   warn(flat_tets, "tet has no volume", "tets have no volume");
+  warn(peeled_tets, "flat tet that hid a vertex of the boundary was taken off it",
+       "flat tets that hid vertices of the boundary were taken off it");
   warn(unused_vertices, "vertex of no tet was dropped", "vertices of no tet were dropped");
   warn(made_triangles, "missing surface triangle was made", "missing surface triangles were made");
   warn(dropped_triangles, "triangle that is no surface face, or doubled, was dropped",
@@ -322,7 +347,7 @@ BuildResult build(MeshData data, const BuildOptions& options) {
 
   BuildResult out;
   TetMesh& mesh = out.mesh;
-  const std::vector<VertexId> new_vertex = take_vertices(data, mesh);
+  std::vector<VertexId> new_vertex = take_vertices(data, mesh);
   out.summary.unused_vertices = std::int64_t(new_vertex.size() - mesh.points.size());
   if (out.summary.unused_vertices != 0) out.unused_vertices = unused_of(new_vertex);
   take_tets(data, new_vertex, mesh, out.summary);
@@ -334,6 +359,7 @@ BuildResult build(MeshData data, const BuildOptions& options) {
   take_triangles(data, new_vertex, faces, listed, mesh, out.summary);
   make_triangles(faces, listed, mesh, out.summary);
   attach_triangles(mesh, faces);
+  peel(data, new_vertex, out);
   if (options.keep_internal) orient_internal_sheets(mesh);
   tag_features(mesh, data, new_vertex, out.summary);
   take_normals(data, new_vertex, mesh);

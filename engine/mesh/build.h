@@ -11,6 +11,7 @@ namespace cavea {
 struct BuildSummary {
   std::int64_t turned_tets = 0;        ///< tets of negative orientation, turned over
   std::int64_t flat_tets = 0;          ///< tets of zero volume, accepted
+  std::int64_t peeled_tets = 0;        ///< flat ones taken off the boundary (peel_flat.h)
   std::int64_t unused_vertices = 0;    ///< vertices of no tet, dropped
   std::int64_t made_triangles = 0;     ///< faces of the surface that were not listed
   std::int64_t dropped_triangles = 0;  ///< listed triangles that are no surface face, or twice
@@ -27,7 +28,7 @@ struct BuildOptions {
 struct BuildResult {
   TetMesh mesh;
   BuildSummary summary;
-  std::vector<std::int32_t> unused_vertices;  ///< those of the lists that are of no tet, rising
+  std::vector<std::int32_t> unused_vertices;  ///< those of the lists that were dropped, rising
 };
 
 /// Makes a mesh out of lists: adjacency, surface triangles (the exterior boundary and the faces

@@ -11,7 +11,7 @@ namespace cavea::program {
 struct LoadedMesh {
   TetMesh mesh;
   BuildSummary repairs;
-  std::vector<std::int32_t> unused_vertices;  ///< those of the file that are of no tet, rising
+  std::vector<std::int32_t> unused_vertices;  ///< those of the file that were dropped, rising
   std::vector<std::string> warnings;          ///< of the reader, then of build()
 };
 
