@@ -138,6 +138,8 @@ void MeshEditor::add_triangles(const Cavity& cavity) {
     face.link = FaceLink::to_triangle(id);
     face.side = -1;
     if (outer.is_tet()) {
+      // Of vertices that no new tet has, this may be the only one that they are known to keep.
+      for (const VertexId v : t.v) mesh_.vertex_tets[v] = outer.tet();
       attach(outer.tet(), outer.face(), face);
       --open_faces_;
     }

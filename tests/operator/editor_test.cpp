@@ -61,6 +61,27 @@ TEST(MeshEditor, FillsTheHolesThatItHasMade) {
   expect_sound(stage.mesh);
 }
 
+TEST(MeshEditor, KnowsTetsOfVerticesThatNoNewTetHas) {
+  MeshData data;  // two tets, one on the other
+  data.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 1}, {0.3, 0.3, -1}};
+  data.tets = {{0, 2, 1, 4}, {0, 1, 2, 3}};
+  data.vertex_refs.assign(5, 0), data.tet_refs.assign(2, 1);
+  for (const VertexId cut : {3, 4}) {
+    TetMesh mesh = build(data).mesh;
+    const TetId tet = mesh.local_index(0, cut) < 4 ? 0 : 1;
+    Cavity cavity;
+    cavity.removed_tets = {tet};
+    cavity.removed_vertex = cut;
+    for (const FaceLink link : mesh.links[tet])
+      if (link.is_triangle()) cavity.removed_triangles.push_back(link.triangle());
+    Triangle face = mesh.triangles[cavity.removed_triangles[0]];
+    face.v = cut == 3 ? std::array<VertexId, 3>{0, 1, 2} : std::array<VertexId, 3>{0, 2, 1};
+    cavity.triangles = {face};
+    MeshEditor(mesh).commit(cavity);
+    expect_sound(mesh);
+  }
+}
+
 TEST(MeshEditor, AnotherOneOfTheSameMeshKnowsItsHoles) {
   Stage stage(kuhn_cube(3));
   for (const Edge& e : edges_of(stage.mesh))
