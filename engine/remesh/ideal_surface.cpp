@@ -22,6 +22,8 @@ FeatureOptions feature_options(const Options& options, const ResolvedOptions& r)
   FeatureOptions o;
   o.sliver = kSliver * r.hausd;
   o.angle = options.angle, o.detect_ridges = options.detect_ridges;
+  // What is left of a ridge that goes on until it is as slight is round within the tolerance.
+  if (!options.faceted) o.continued_above = kSlight;
   if (options.faceted)
     o.crease = kFold * r.hausd;
   else if (o.detect_ridges)

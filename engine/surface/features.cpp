@@ -9,6 +9,7 @@
 
 #include "cavea/base/parallel.h"
 #include "cavea/surface/edges.h"
+#include "cavea/surface/ridge_ends.h"
 
 namespace cavea {
 namespace {
@@ -172,6 +173,12 @@ void tag_edges(TetMesh& m, const std::vector<EdgeSide>& sides, const FeatureOpti
       m.triangles[s->triangle].edge_ref[s->k] = ref;
     }
   });
+  if (!options.detect_ridges || options.continued_above >= options.angle) return;
+  const auto fold = [&](TriangleId a, TriangleId b) {
+    return angle_between(normals[a], normals[b]);
+  };
+  continue_ridges(m, sides, fold, options.continued_above * std::numbers::pi / 180,
+                  options.may_be_ridge);
 }
 
 std::vector<FeatureStar> gather_stars(const TetMesh& m, const std::vector<EdgeSide>& sides) {

@@ -14,6 +14,9 @@ struct FeatureOptions {
   /// holds of its turn and its edges. For surfaces whose flat triangles are the truth.
   double crease = std::numeric_limits<double>::infinity();
   double least_crease_angle = 0;  ///< degrees; flatter edges are no such ridges
+  /// Degrees; where a ridge ends, it goes on over edges ahead that fold by more and stand out from
+  /// the folds around them. No ridge does if this is not below `angle`.
+  double continued_above = 180;
   /// A triangle of less height than this makes no fold between two, at its longer edges, that make
   /// none without it: its own normal is that of noise.
   double sliver = 0;

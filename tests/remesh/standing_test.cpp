@@ -89,6 +89,7 @@ std::vector<Body> bodies() {
           {"sharp_wedge_without_room", sharp_wedge(), {}},
           {"cylinder", cylinder(8), with_tolerance(0.01)},
           {"faceted_cylinder", cylinder(8), faceted},
+          {"fading_ridges", fading_column(6), with_tolerance(0.004)},
           {"frame", frame(), uniform(0.06)},
           {"thin_plate", thin_plate(), uniform(0.05)}};
 }

@@ -148,6 +148,18 @@ void set_refs(MeshData& data, RefOf&& ref_of) {
   }
 }
 
+/// kuhn_cube(n) mapped to a column that is square below and round above: the ridges at its four
+/// sides fade on the way up.
+inline MeshData fading_column(int n) {
+  MeshData data = kuhn_cube(n);
+  for (Vec3& p : data.vertices) {
+    const double x = 2 * p.x - 1, y = 2 * p.y - 1;
+    const double round_x = x * std::sqrt(1 - y * y / 2), round_y = y * std::sqrt(1 - x * x / 2);
+    p = {std::lerp(x, round_x, p.z), std::lerp(y, round_y, p.z), 2 * p.z};
+  }
+  return data;
+}
+
 /// kuhn_cube(n) mapped to the ball of radius 1 around the origin; all tets are positive.
 inline MeshData ball(int n) {
   MeshData data = kuhn_cube(n);

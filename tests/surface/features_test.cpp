@@ -117,6 +117,39 @@ TEST(ClassifyFeatures, TheAngleDecidesWhatIsSharp) {
   EXPECT_EQ(classify_features(sharp, {89, true}), 6);
 }
 
+TEST(ClassifyFeatures, RidgesGoOnWhereTheyFade) {
+  constexpr int kSize = 8;
+  FeatureOptions options;
+  const auto upright_ridges = [&] {
+    TetMesh mesh = build(test::fading_column(kSize)).mesh;
+    classify_features(mesh, options);
+    return edges_with(mesh, tag::kRidge) - 2 * 4 * kSize;  // without those around the two ends
+  };
+  const int above_the_angle = upright_ridges();
+  EXPECT_LT(above_the_angle, 4 * kSize);
+  options.continued_above = 20;
+  EXPECT_GT(upright_ridges(), above_the_angle + 4);
+  EXPECT_LE(upright_ridges(), 4 * kSize);
+  options.may_be_ridge = [](VertexId, VertexId) { return false; };
+  EXPECT_EQ(upright_ridges(), -2 * 4 * kSize);
+}
+
+TEST(ClassifyFeatures, FoldsOfACoarseRoundShapeContinueNoRidge) {
+  MeshData data = kuhn_cube(3);  // becomes a column of twelve sides, whose folds are all alike
+  data.edges = {{vertex_at(data, {0, 0, 0}), vertex_at(data, {0, 0, 1.0 / 3})}};
+  data.edge_refs = {7};
+  data.ridges = {0};
+  for (Vec3& p : data.vertices) {
+    const double x = 2 * p.x - 1, y = 2 * p.y - 1;
+    p = {x * std::sqrt(1 - y * y / 2), y * std::sqrt(1 - x * x / 2), p.z};
+  }
+  FeatureOptions options;
+  options.continued_above = 20;
+  TetMesh mesh = build(data).mesh;
+  classify_features(mesh, options);
+  EXPECT_EQ(edges_with(mesh, tag::kRidge), 2 * 12 + 1);
+}
+
 TEST(ClassifyFeatures, SliversSayNothingOfFolds) {
   // A pyramid upside down, over the diagonal of whose flat top a sliver stands upright.
   MeshData data;
