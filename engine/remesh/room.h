@@ -5,7 +5,7 @@
 namespace cavea {
 
 /// Where a body has no room, sizes of this share of those wanted are the finest that are tried.
-inline constexpr double kFinestRoom = 0.512;
+inline constexpr double kFinestRoom = 0.41;
 
 /// How much room the shape leaves for elements of the sizes asked for: in strips one of them wide
 /// all are of a poor quality, or few have the lengths wanted.
@@ -14,7 +14,7 @@ enum class Room { kMissing, kLittle, kEnough };
 /// Whether the mesh is one with room, as far as the means tell.
 bool has_room(const MeshSummary& after);
 
-/// Whether the mesh is so coarse on the whole that it may grow eightfold to have room.
+/// Whether the mesh is so coarse on the whole that it may grow many times to have room.
 bool is_coarse_mesh(const MeshSummary& after);
 
 /// Room is only looked for where the caller left the sizes to us.

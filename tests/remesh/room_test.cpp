@@ -1,5 +1,7 @@
 // Where elements of the sizes asked for have no room, smaller ones are made.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "remesh/support.h"
 
@@ -21,6 +23,47 @@ TEST(Room, IsMadeInNarrowBodies) {
   EXPECT_GE(report.finer, 0.5);
   EXPECT_GE(report.after.quality.mean, 0.78);
   EXPECT_TRUE(report.targets_met());
+}
+
+/// A prism over a star of twelve points, each a wedge of 19 degrees: too blunt to pass for a thin
+/// wall, and too narrow for the sizes wanted.
+MeshData star_prism() {
+  constexpr int kSides = 24, kLayers = 4;
+  MeshData data;
+  for (int layer = 0; layer <= kLayers; ++layer) {
+    const double z = 3.0 * layer / kLayers;
+    data.vertices.push_back({0, 0, z});
+    for (int i = 0; i < kSides; ++i) {
+      const double r = i % 2 == 0 ? 3 : 1.2, angle = 2 * std::numbers::pi * i / kSides;
+      data.vertices.push_back({r * std::cos(angle), r * std::sin(angle), z});
+    }
+  }
+  const auto add = [&](std::array<int, 4> t) {
+    const auto& x = data.vertices;
+    if (dot(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]), x[t[3]] - x[t[0]]) < 0)
+      std::swap(t[0], t[1]);
+    data.tets.push_back(t);
+  };
+  constexpr int kUp = kSides + 1;
+  for (int base = 0; base < kLayers * kUp; base += kUp)
+    for (int i = 0; i < kSides; ++i) {
+      const int a = base + 1 + std::min(i, (i + 1) % kSides);
+      const int b = base + 1 + std::max(i, (i + 1) % kSides);
+      add({base, a, b, b + kUp});
+      add({base, a, a + kUp, b + kUp});
+      add({base, base + kUp, a + kUp, b + kUp});
+    }
+  data.vertex_refs.assign(data.vertices.size(), 0);
+  data.tet_refs.assign(data.tets.size(), 1);
+  return data;
+}
+
+TEST(Room, IsMadeInPointsOfAStar) {
+  TetMesh mesh = built(star_prism());
+  const Report report = remesh(mesh, {}, {});
+  expect_sound(mesh);
+  EXPECT_LT(report.finer, 0.512);
+  EXPECT_GE(report.after.quality.mean, 0.78);
 }
 
 // A mesh that may have made room is mended first; where that finds none, other sizes are tried on
