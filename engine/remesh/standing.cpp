@@ -95,7 +95,8 @@ bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const O
   return met(after) <= met(before) && !worst_has_risen(before, after) &&
          after.quality.mean < before.quality.mean + kGain &&
          share_of_poor(after.quality) > share_of_poor(before.quality) - kGain &&
-         after.lengths.conforming_percent() < before.lengths.conforming_percent() + kConformGain;
+         (before.lengths.conforming_percent() >= options.min_conform ||
+          after.lengths.conforming_percent() < before.lengths.conforming_percent() + kConformGain);
 }
 
 bool sizes_are_given(const Options& options, bool has_field) {

@@ -21,8 +21,8 @@ bool is_as_good_as_results(const MeshSummary& now, bool uniform, double conform)
 /// Whether the worst quality was poor and is better by more than chance would make it.
 bool worst_has_risen(const MeshSummary& before, const MeshSummary& after);
 
-/// Whether quality and lengths have not become better by more than chance would make them, nor met
-/// a target of the options that they missed.
+/// Whether the quality, and lengths that missed their target, have not become better by more than
+/// chance would make them, nor met a target of the options that they missed.
 bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const Options& options);
 
 /// Whether the caller says what the sizes are, and not the surface alone.

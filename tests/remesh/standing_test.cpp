@@ -128,6 +128,21 @@ TEST(Standing, IsNearlyWhatAResultIsFoundToBe) {
   EXPECT_FALSE(made_room(found(0.3, 0), smooth));
 }
 
+// Of a torus cut at ten degrees: what is given again has other sizes near the sharp rim.
+TEST(Standing, LengthsThatConformHaveNothingToGain) {
+  const auto with = [](double quality, double too_long_percent) {
+    MeshSummary summary = found(1, too_long_percent);
+    summary.quality.mean = quality;
+    summary.quality.worst = 0.2;
+    summary.quality.histogram[2] = 10, summary.quality.histogram[8] = 990;
+    summary.lengths.conforming = 1000 - summary.lengths.histogram[6];
+    return summary;
+  };
+  EXPECT_TRUE(gained_nothing(with(0.785, 6.5), with(0.781, 3.4), {}));
+  EXPECT_FALSE(gained_nothing(with(0.785, 12), with(0.781, 3.4), {}));
+  EXPECT_FALSE(gained_nothing(with(0.785, 6.5), with(0.8, 3.4), {}));
+}
+
 class Again : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Again, ChangesHardlyAnything) {
