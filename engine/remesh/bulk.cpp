@@ -33,9 +33,10 @@ bool is_long(const TetMesh& m, VertexId a, VertexId b, double most) {
   return metric_length(distance(m.points[a], m.points[b]), m.sizes[a], m.sizes[b]) > most;
 }
 
-/// Whether the edge opposite corner k of a surface triangle is to be halved.
+/// Whether the edge opposite corner k of a surface triangle is to be halved. Where the volume
+/// touches itself, all is left as it is.
 bool is_long(const TetMesh& m, const Triangle& t, std::size_t k, double most) {
-  return !((t.tags | t.edge_tag[k]) & tag::kRequired) &&
+  return !((t.tags | t.edge_tag[k]) & tag::kRequired) && !(t.edge_tag[k] & tag::kPinched) &&
          is_long(m, t.v[(k + 1) % 3], t.v[(k + 2) % 3], most);
 }
 

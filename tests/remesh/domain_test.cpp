@@ -1,6 +1,7 @@
 // What the mesh is of stays: volumes, interfaces, ridges, corners, required entities.
 #include <numbers>
 
+#include "cavea/surface/edges.h"
 #include "remesh/support.h"
 
 namespace cavea::test {
@@ -39,6 +40,14 @@ TEST_P(PlaneBody, KeepsItsDomain) {
 INSTANTIATE_TEST_SUITE_P(All, PlaneBody, testing::Range<std::size_t>(0, plane_bodies().size()),
                          [](const auto& number) { return plane_bodies()[number.param].name; });
 
+std::int64_t count_pinched_edges(const TetMesh& mesh) {
+  std::int64_t n = 0;
+  for_each_edge(sorted_edge_sides(mesh.triangles), [&](const EdgeSide* side, const EdgeSide*) {
+    n += bool(mesh.triangles[side->triangle].edge_tag[side->k] & tag::kPinched);
+  });
+  return n;
+}
+
 TEST(Domain, TouchingItselfStaysAsItIs) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -49,6 +58,7 @@ TEST(Domain, TouchingItselfStaysAsItIs) {
     TetMesh start = built(data);
     classify_features(start, {});
     Shape(start).expect_polyhedron(mesh);
+    EXPECT_EQ(count_pinched_edges(mesh), count_pinched_edges(start));
   }
 }
 
