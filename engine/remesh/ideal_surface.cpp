@@ -18,7 +18,7 @@ FeatureOptions feature_options(const Options& options, const ResolvedOptions& r)
   // 6 of them in w it is better to follow the crease, too; but where it is slight the shape is
   // meant to be smooth, and only the tolerance too small for its facets.
   constexpr double kBulge = 8, kCrease = 6 * 3.5, kSlight = 20;
-  constexpr double kSliver = 0.5;  // of hausd: less than what the surface may be off anyway
+  constexpr double kSliver = 1;  // of hausd: no more than what the surface may be off anyway
   FeatureOptions o;
   o.sliver = kSliver * r.hausd;
   o.angle = options.angle, o.detect_ridges = options.detect_ridges;

@@ -52,59 +52,78 @@ Vec3 triangle_normal(const TetMesh& m, const Triangle& t) {
       cross(m.points[t.v[1]] - m.points[t.v[0]], m.points[t.v[2]] - m.points[t.v[0]]));
 }
 
-/// The normals that folds are told by: those of the triangles, but for slivers between two
-/// triangles that make no fold without them.
+/// The normals that folds are told by: those of the triangles, but for slivers that stand up
+/// between two others: they have theirs.
 class FoldNormals {
  public:
   FoldNormals(const TetMesh& m, const std::vector<EdgeSide>& sides, const FeatureOptions& o)
-      : normals_(m.triangles.size()) {
-    parallel_for(normals_.size(), [&](std::size_t t) {
-      if (m.triangles[t].alive()) normals_[t] = triangle_normal(m, m.triangles[t]);
+      : own_(m.triangles.size()), cosine_(std::cos(o.angle * std::numbers::pi / 180)) {
+    parallel_for(own_.size(), [&](std::size_t t) {
+      if (m.triangles[t].alive()) own_[t] = triangle_normal(m, m.triangles[t]);
     });
-    if (o.sliver > 0)
-      look_across(short_sides_of_slivers(m, o.sliver), sides,
-                  std::cos(o.angle * std::numbers::pi / 180));
+    normals_ = own_;
+    if (o.sliver > 0) look_across(triangles_across(edges_of_slivers(m, o.sliver), sides));
   }
   const Vec3& operator[](TriangleId t) const { return normals_[std::size_t(t)]; }
 
  private:
-  /// For each triangle the corner opposite its shortest edge if its least height is below
-  /// `sliver`, else -1.
-  static std::vector<std::int8_t> short_sides_of_slivers(const TetMesh& m, double sliver) {
-    std::vector<std::int8_t> sides(m.triangles.size(), -1);
-    parallel_for(sides.size(), [&](std::size_t t) {
+  /// Of each triangle the corners opposite its edges, that of the longest edge first; none where
+  /// its least height is not below `sliver`.
+  using Edges = std::vector<std::array<std::int8_t, 3>>;
+  static Edges edges_of_slivers(const TetMesh& m, double sliver) {
+    Edges edges(m.triangles.size(), {-1, -1, -1});
+    parallel_for(edges.size(), [&](std::size_t t) {
       const Triangle& s = m.triangles[t];
       if (!s.alive()) return;
       const Vec3 x[3] = {m.points[s.v[0]], m.points[s.v[1]], m.points[s.v[2]]};
       double lengths[3];
       for (int k = 0; k < 3; ++k) lengths[k] = distance(x[(k + 1) % 3], x[(k + 2) % 3]);
-      const auto [shortest, longest] = std::minmax_element(lengths, lengths + 3);
-      if (norm(cross(x[1] - x[0], x[2] - x[0])) < sliver * *longest)
-        sides[t] = std::int8_t(shortest - lengths);
+      std::array<std::int8_t, 3> by_length = {0, 1, 2};
+      std::ranges::stable_sort(by_length, [&](int i, int j) { return lengths[i] > lengths[j]; });
+      if (norm(cross(x[1] - x[0], x[2] - x[0])) < sliver * lengths[by_length[0]])
+        edges[t] = by_length;
     });
-    return sides;
+    return edges;
   }
 
-  void look_across(const std::vector<std::int8_t>& shortest, const std::vector<EdgeSide>& sides,
-                   double cosine) {
-    std::vector<std::array<TriangleId, 2>> across(shortest.size(), {kNone, kNone});
-    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+  using Across = std::vector<std::array<TriangleId, 3>>;
+  static Across triangles_across(const Edges& edges, const std::vector<EdgeSide>& sides) {
+    Across across(edges.size(), {kNone, kNone, kNone});
+    parallel_for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
       if (end - begin != 2) return;
       for (int i = 0; i < 2; ++i) {
         const auto t = std::size_t(begin[i].triangle);
-        if (shortest[t] < 0 || begin[i].k == shortest[t]) continue;
-        across[t][across[t][0] == kNone ? 0 : 1] = begin[1 - i].triangle;
+        const auto at = std::ranges::find(edges[t], begin[i].k);
+        if (at != edges[t].end())
+          across[t][std::size_t(at - edges[t].begin())] = begin[1 - i].triangle;
       }
     });
-    const std::vector<Vec3> own = normals_;
-    for (std::size_t t = 0; t < across.size(); ++t) {
-      if (across[t][1] == kNone) continue;
-      const Vec3 &a = own[std::size_t(across[t][0])], &b = own[std::size_t(across[t][1])];
-      if (dot(a, b) >= cosine) normals_[t] = normalized(a + b);
+    return across;
+  }
+
+  void look_across(const Across& across) {
+    constexpr int kPasses = 4;  // slivers are beside each other
+    for (int pass = 0; pass < kPasses; ++pass) {
+      const std::vector<Vec3> before = normals_;
+      const auto over = [&](TriangleId t) { return t == kNone ? Vec3{} : before[std::size_t(t)]; };
+      parallel_for(across.size(), [&](std::size_t t) {
+        const Vec3 a = over(across[t][0]), b = over(across[t][1]), c = over(across[t][2]);
+        if (stands_up(own_[t], a, b))
+          normals_[t] = normalized(a + b);
+        else if (stands_up(own_[t], a, c))
+          normals_[t] = normalized(a + c);
+      });
     }
   }
 
-  std::vector<Vec3> normals_;
+  /// Whether a triangle is farther from two others than these are from each other, and they make no
+  /// fold.
+  bool stands_up(const Vec3& n, const Vec3& a, const Vec3& b) const {
+    return dot(a, b) >= std::max({cosine_, dot(n, a), dot(n, b)}) && norm2(a) > 0 && norm2(b) > 0;
+  }
+
+  std::vector<Vec3> own_, normals_;
+  double cosine_;
 };
 
 /// The options as cosines.

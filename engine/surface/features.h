@@ -17,8 +17,8 @@ struct FeatureOptions {
   /// Degrees; where a ridge ends, it goes on over edges ahead that fold by more and stand out from
   /// the folds around them. No ridge does if this is not below `angle`.
   double continued_above = 180;
-  /// A triangle of less height than this makes no fold between two, at its longer edges, that make
-  /// none without it: its own normal is that of noise.
+  /// A triangle of less height than this may make no fold between two that make none without it,
+  /// of which one is over its longest edge: its own normal is that of noise.
   double sliver = 0;
   /// If set, only edges that it takes are ridges, whether found or carried by the mesh. Called from
   /// many threads.

@@ -167,6 +167,68 @@ TEST(ClassifyFeatures, SliversSayNothingOfFolds) {
   EXPECT_EQ(edges_with(again, tag::kRidge), 8);
 }
 
+/// The body between triangles and a point below them.
+MeshData under(std::vector<Vec3> points, const Vec3& apex,
+               const std::vector<std::array<VertexId, 3>>& triangles) {
+  MeshData data;
+  const auto below = VertexId(points.size());
+  points.push_back(apex);
+  data.vertices = std::move(points);
+  for (const auto& t : triangles) data.tets.push_back({t[0], t[1], t[2], below});
+  data.vertex_refs.assign(data.vertices.size(), 0), data.tet_refs.assign(data.tets.size(), 1);
+  return data;
+}
+
+TetMesh classified(const MeshData& data, double sliver) {
+  TetMesh mesh = build(data).mesh;
+  FeatureOptions options;
+  options.sliver = sliver;
+  classify_features(mesh, options);
+  return mesh;
+}
+
+TEST(ClassifyFeatures, NorDoSliversBesideEachOther) {
+  // Two of them stand upright over the diagonal, the smaller one on the other.
+  const MeshData data =
+      under({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1e-3}, {0.25, 0.25, 1e-3}},
+            {0.4, 0.6, -1}, {{0, 1, 2}, {0, 2, 4}, {0, 4, 5}, {0, 5, 3}, {5, 4, 3}, {4, 2, 3}});
+  EXPECT_EQ(edges_with(classified(data, 0), tag::kRidge), 8 + 4);
+  EXPECT_EQ(edges_with(classified(data, 0.01), tag::kRidge), 8);
+}
+
+TEST(ClassifyFeatures, ARidgeMakesNoDetourAroundASliver) {
+  // A wall stands over half of the diagonal, and ends in a sliver.
+  const MeshData data =
+      under({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.3, 0.3, 1e-3}, {0.65, 0.65, 0.4}},
+            {0.4, 0.6, -1}, {{0, 1, 2}, {0, 2, 4}, {0, 4, 3}, {4, 2, 5}, {4, 5, 3}, {5, 2, 3}});
+  const auto is_ridge = [](const TetMesh& mesh, VertexId a, VertexId b) {
+    for (const Triangle& t : mesh.triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (std::minmax(t.v[(k + 1) % 3], t.v[(k + 2) % 3]) == std::minmax(a, b))
+          return (t.edge_tag[k] & tag::kRidge) != 0;
+    return false;
+  };
+  const TetMesh noisy = classified(data, 0), mesh = classified(data, 0.01);
+  EXPECT_TRUE(is_ridge(noisy, 0, 2) && is_ridge(noisy, 0, 4) && !is_ridge(noisy, 2, 4));
+  EXPECT_TRUE(!is_ridge(mesh, 0, 2) && !is_ridge(mesh, 0, 4) && is_ridge(mesh, 2, 4));
+}
+
+TEST(ClassifyFeatures, SliversOfAFaceKeepItsRim) {
+  // A disc whose rim is cut off in ears of a height of 0.08, over a flat cone.
+  constexpr int kSides = 16;
+  std::vector<Vec3> points;
+  std::vector<std::array<VertexId, 3>> triangles;
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kSides;
+    points.push_back({std::cos(angle), std::sin(angle), 0});
+    if (i % 2 == 0) triangles.push_back({i, i + 1, (i + 2) % kSides});
+    if (i % 2 == 0) triangles.push_back({kSides, i, (i + 2) % kSides});
+  }
+  points.push_back({0, 0, 0});
+  const MeshData data = under(points, {0, 0, -0.3}, triangles);
+  EXPECT_EQ(edges_with(classified(data, 0.1), tag::kRidge), kSides);
+}
+
 TEST(ClassifyFeatures, EndsOfADanglingRidgeAreCorners) {
   MeshData data = kuhn_cube(4);
   list_path(data, {{0.25, 0.5}, {0.5, 0.5}, {0.75, 0.5}}, Kind::kRidge);
