@@ -1,5 +1,7 @@
 #include "cavea/remesh/mending.h"
 
+#include <cmath>
+
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/rounds.h"
 #include "cavea/remesh/standing.h"
@@ -23,6 +25,10 @@ void mend_poor(Job& job) {
 bool stays_poor(std::int64_t left, std::int64_t poor) {
   constexpr double kMended = 0.9;
   return double(left) > kMended * double(poor);
+}
+
+bool mended_by_chance(std::int64_t left, std::int64_t poor) {
+  return stays_poor(left, poor) || double(poor - left) < std::sqrt(double(poor));
 }
 
 }  // namespace cavea

@@ -12,4 +12,8 @@ void mend_poor(Job& job);
 /// Whether asking poor tets was in vain: too many of them have stayed so.
 bool stays_poor(std::int64_t left, std::int64_t poor);
 
+/// The same of a mesh whose poor tets another run may have mended before: in sizes that are a
+/// little other, which a rerun finds, about the root of their number goes or comes by chance.
+bool mended_by_chance(std::int64_t left, std::int64_t poor);
+
 }  // namespace cavea

@@ -45,7 +45,7 @@ bool Run::in_vain() const {
 }
 
 bool Run::mended_in_vain() const {
-  return job_.keeping.poor > 0 && stays_poor(count_poor(job_.mesh), job_.keeping.poor) &&
+  return job_.keeping.poor > 0 && mended_by_chance(count_poor(job_.mesh), job_.keeping.poor) &&
          gained_nothing(job_.report.before, job_.report.after, job_.options);
 }
 

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "cavea/remesh/mending.h"
 #include "cavea/surface/crossings.h"
 #include "remesh/support.h"
 
@@ -141,6 +142,17 @@ TEST(Standing, LengthsThatConformHaveNothingToGain) {
   EXPECT_TRUE(gained_nothing(with(0.785, 6.5), with(0.781, 3.4), {}));
   EXPECT_FALSE(gained_nothing(with(0.785, 12), with(0.781, 3.4), {}));
   EXPECT_FALSE(gained_nothing(with(0.785, 6.5), with(0.8, 3.4), {}));
+}
+
+// Figures of reruns of three spheres and of a horned head, and of meshes with a wrong place.
+TEST(Standing, FewAreMendedByChance) {
+  EXPECT_TRUE(mended_by_chance(14, 16));
+  EXPECT_TRUE(mended_by_chance(94, 100));
+  EXPECT_TRUE(mended_by_chance(124, 127));
+  EXPECT_TRUE(mended_by_chance(8, 8));
+  EXPECT_FALSE(mended_by_chance(0, 1));
+  EXPECT_FALSE(mended_by_chance(3, 8));
+  EXPECT_FALSE(mended_by_chance(850, 1000));
 }
 
 class Again : public testing::TestWithParam<std::size_t> {};
