@@ -11,11 +11,13 @@ namespace cavea {
 void mend_poor(Job& job) {
   constexpr int kMends = 5;
   if (job.keeping.leaves_all()) return;
+  const std::vector<Phase> phases =
+      job.keeping.stands ? holding_good(poor_recipe(job.r)) : poor_recipe(job.r);
   std::int64_t poor = count_poor(job.mesh);
   for (int k = 0; k < kMends && poor > 0; ++k) {
     ask_nothing(job.mesh);
     ask_poor(job.mesh);
-    job.steps.timed("mending", [&] { run_phases(job, poor_recipe(job.r)); });
+    job.steps.timed("mending", [&] { run_phases(job, phases); });
     const std::int64_t left = count_poor(job.mesh);
     if (stays_poor(left, poor)) break;
     poor = left;

@@ -1,5 +1,7 @@
 #include "cavea/remesh/recipe.h"
 
+#include <utility>
+
 #include "cavea/geometry/metric.h"
 #include "cavea/remesh/standing.h"
 
@@ -123,7 +125,7 @@ std::vector<Phase> standing_recipe(const ResolvedOptions& o) {
   std::vector<Phase> phases = mending_recipe(o);
   for (Phase& p : phases)
     p.cycle.limits.long_edge = kRoughLong, p.cycle.limits.short_edge = kRoughShort;
-  return phases;
+  return holding_good(std::move(phases));
 }
 
 std::vector<Phase> poor_recipe(const ResolvedOptions& o) {
@@ -135,6 +137,13 @@ std::vector<Phase> poor_recipe(const ResolvedOptions& o) {
   std::vector<Phase> phases = mending_recipe(o);
   for (Phase& p : phases) p.ask_below = kPoorQuality;
   phases.insert(phases.begin(), loose);
+  return phases;
+}
+
+std::vector<Phase> holding_good(std::vector<Phase> phases) {
+  // With less, mended tets stay below 0.5, which moves around them would cure.
+  constexpr double kGood = 0.6;
+  for (Phase& p : phases) p.cycle.move_ceiling = kGood;
   return phases;
 }
 

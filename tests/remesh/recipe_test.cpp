@@ -32,5 +32,13 @@ TEST(Recipe, WhatStandsIsAskedOnlyWhereItIsPoor) {
   for (const Phase& phase : standing_recipe({})) EXPECT_EQ(phase.ask_below, 0);
 }
 
+TEST(Recipe, WhatStandsIsMovedOnlyWhereItIsNotGood) {
+  for (const auto& phases : {standing_recipe({}), holding_good(poor_recipe({}))})
+    for (const Phase& phase : phases) {
+      EXPECT_GE(phase.cycle.move_ceiling, kPoorQuality);
+      EXPECT_LT(phase.cycle.move_ceiling, last_phase({}).cycle.move_ceiling);
+    }
+}
+
 }  // namespace
 }  // namespace cavea::test
