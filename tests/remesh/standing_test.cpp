@@ -62,6 +62,17 @@ MeshData rough_ball() {
   });
 }
 
+/// Five teeth that are narrower than the sizes wanted, so that room is made for elements in them.
+MeshData comb() {
+  MeshData data =
+      kuhn_grid(9, [](int i, int j, int k) { return k == 0 && j < 4 && (j == 0 || i % 2 == 0); });
+  for (Vec3& p : data.vertices) {
+    const double side = std::round(9 * p.x);
+    p = {1.3 * std::floor(side / 2) + 0.7 * std::fmod(side, 2), 9 * p.y, 4.5 * p.z};
+  }
+  return data;
+}
+
 /// Two sides meet almost, below six degrees: tets there are poor, whatever they are.
 MeshData sharp_wedge() {
   return mapped(kuhn_cube(6), [](const Vec3& p) {
@@ -91,6 +102,7 @@ std::vector<Body> bodies() {
           {"cylinder", cylinder(8), with_tolerance(0.01)},
           {"faceted_cylinder", cylinder(8), faceted},
           {"fading_ridges", fading_column(6), with_tolerance(0.004)},
+          {"comb", comb(), {}},
           {"frame", frame(), uniform(0.06)},
           {"thin_plate", thin_plate(), uniform(0.05)}};
 }
