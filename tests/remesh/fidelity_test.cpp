@@ -82,6 +82,22 @@ TEST(Fidelity, SmoothModelIsCloserToTheShapeThanItsTriangles) {
   expect_closer("torus", torus(24), to_torus);
 }
 
+// A pyramid upside down, over the diagonal of whose flat top a sliver stands upright.
+TEST(Fidelity, SliversLowerThanTheToleranceForceNoPoorTets) {
+  MeshData data;
+  data.vertices = {{0, 0, 0},     {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.499, 0.501, 0.008},
+                   {0.5, 0.5, -1}};
+  data.tets = {{0, 1, 2, 5}, {0, 2, 4, 5}, {0, 4, 3, 5}, {4, 2, 3, 5}};
+  data.vertex_refs.assign(6, 0), data.tet_refs.assign(4, 1);
+  TetMesh mesh = built(data);
+  Options options;
+  options.hausd = 0.01;
+  const Report report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  EXPECT_GT(report.after.quality.worst, 0.3);
+  EXPECT_LE(report.surface_distance, report.hausd);
+}
+
 TEST(Fidelity, FacetedResultsStayOnTheTriangles) {
   for (const MeshData& coarse : {ball(4), cylinder(4), cylinder(9)}) {
     TetMesh mesh = built(coarse);
