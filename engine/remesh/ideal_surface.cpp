@@ -25,7 +25,7 @@ FeatureOptions feature_options(const Options& options, const ResolvedOptions& r)
   // What is left of a ridge that goes on until it is as slight is round within the tolerance.
   if (!options.faceted) o.continued_above = kSlight;
   if (options.faceted)
-    o.crease = kFold * r.hausd;
+    o.crease = kFold * r.hausd, o.flat = true;
   else if (o.detect_ridges)
     o.crease = kBulge * r.max_bulge + kCrease * r.hausd, o.least_crease_angle = kSlight;
   return o;

@@ -132,6 +132,7 @@ struct Sharpness {
       : cosine(std::cos(o.angle * std::numbers::pi / 180)),
         detect(o.detect_ridges),
         crease(o.crease),
+        flat(o.flat),
         least_angle(o.least_crease_angle * std::numbers::pi / 180) {}
   bool folds(double cos_angle, double length) const {
     const double angle = std::acos(std::clamp(cos_angle, -1.0, 1.0));
@@ -139,17 +140,22 @@ struct Sharpness {
   }
   double cosine;
   bool detect;
-  double crease, least_angle;
+  double crease;
+  bool flat;
+  double least_angle;
 };
 
-/// Mean height of the two triangles at an edge over it.
-double mean_height(const TetMesh& m, const EdgeSide* begin) {
-  double areas = 0;
+/// Mean height of the two triangles at an edge over it. An edge across flat ones, from one end of
+/// their heights to the other, sags by half of the harmonic mean times the angle between them.
+double mean_height(const TetMesh& m, const EdgeSide* begin, bool flat) {
+  double heights[2];
   for (int i = 0; i < 2; ++i) {
     const auto& v = m.triangles[begin[i].triangle].v;
-    areas += norm(cross(m.points[v[1]] - m.points[v[0]], m.points[v[2]] - m.points[v[0]])) / 2;
+    heights[i] = norm(cross(m.points[v[1]] - m.points[v[0]], m.points[v[2]] - m.points[v[0]])) /
+                 distance(m.points[begin->a], m.points[begin->b]);
   }
-  return areas / distance(m.points[begin->a], m.points[begin->b]);
+  const double sum = heights[0] + heights[1];
+  return flat ? 2 * heights[0] * heights[1] / sum : sum / 2;
 }
 
 Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end,
@@ -171,7 +177,7 @@ Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end,
   if (!both) return tags;
   const double cosine = dot(n0, n1);
   if (sharpness.detect && cosine < sharpness.cosine) tags |= tag::kRidge;
-  if (sharpness.folds(cosine, mean_height(m, begin))) tags |= tag::kRidge;
+  if (sharpness.folds(cosine, mean_height(m, begin, sharpness.flat))) tags |= tag::kRidge;
   return tags;
 }
 

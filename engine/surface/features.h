@@ -13,6 +13,9 @@ struct FeatureOptions {
   /// height of its two triangles over it exceeds this length; a curve has a corner where the same
   /// holds of its turn and its edges. For surfaces whose flat triangles are the truth.
   double crease = std::numeric_limits<double>::infinity();
+  /// Whether that mean is the harmonic one, as edges across flat triangles sag; else triangles are
+  /// smooth and bulge, each by its own height.
+  bool flat = false;
   double least_crease_angle = 0;  ///< degrees; flatter edges are no such ridges
   /// Degrees; where a ridge ends, it goes on over edges ahead that fold by more and stand out from
   /// the folds around them. No ridge does if this is not below `angle`.

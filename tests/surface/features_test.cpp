@@ -187,6 +187,14 @@ TetMesh classified(const MeshData& data, double sliver) {
   return mesh;
 }
 
+bool is_ridge(const TetMesh& mesh, VertexId a, VertexId b) {
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::minmax(t.v[(k + 1) % 3], t.v[(k + 2) % 3]) == std::minmax(a, b))
+        return (t.edge_tag[k] & tag::kRidge) != 0;
+  return false;
+}
+
 TEST(ClassifyFeatures, NorDoSliversBesideEachOther) {
   // Two of them stand upright over the diagonal, the smaller one on the other.
   const MeshData data =
@@ -201,16 +209,24 @@ TEST(ClassifyFeatures, ARidgeMakesNoDetourAroundASliver) {
   const MeshData data =
       under({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.3, 0.3, 1e-3}, {0.65, 0.65, 0.4}},
             {0.4, 0.6, -1}, {{0, 1, 2}, {0, 2, 4}, {0, 4, 3}, {4, 2, 5}, {4, 5, 3}, {5, 2, 3}});
-  const auto is_ridge = [](const TetMesh& mesh, VertexId a, VertexId b) {
-    for (const Triangle& t : mesh.triangles)
-      for (std::size_t k = 0; k < 3; ++k)
-        if (std::minmax(t.v[(k + 1) % 3], t.v[(k + 2) % 3]) == std::minmax(a, b))
-          return (t.edge_tag[k] & tag::kRidge) != 0;
-    return false;
-  };
   const TetMesh noisy = classified(data, 0), mesh = classified(data, 0.01);
   EXPECT_TRUE(is_ridge(noisy, 0, 2) && is_ridge(noisy, 0, 4) && !is_ridge(noisy, 2, 4));
   EXPECT_TRUE(!is_ridge(mesh, 0, 2) && !is_ridge(mesh, 0, 4) && is_ridge(mesh, 2, 4));
+}
+
+TEST(ClassifyFeatures, AnEdgeAcrossAFoldSagsAsItsNarrowerSideAllows) {
+  // Heights of 1 and 0.1 over the first edge, at 0.5.
+  const MeshData data =
+      under({{0, 0, 0}, {0, 1, 0}, {-1, 0.5, 0}, {0.1 * std::cos(0.5), 0.5, -0.1 * std::sin(0.5)}},
+            {-0.3, 0.5, -2}, {{0, 1, 2}, {1, 0, 3}});
+  FeatureOptions options;
+  for (const double crease : {0.05, 0.2, 0.4})
+    for (const bool flat : {false, true}) {
+      TetMesh mesh = build(data).mesh;
+      options.crease = crease, options.flat = flat;
+      classify_features(mesh, options);
+      EXPECT_EQ(is_ridge(mesh, 0, 1), 0.5 * (flat ? 2. / 11 : 0.55) > crease);
+    }
 }
 
 TEST(ClassifyFeatures, SliversOfAFaceKeepItsRim) {
