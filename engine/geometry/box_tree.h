@@ -32,13 +32,19 @@ class BoxTree {
   /// sqrt(bound2), near ones first; visit lowers bound2 as it finds something.
   template <class Place, class Visit>
   void visit_near(const Place& p, double& bound2, Visit&& visit) const {
+    visit_near(
+        p, bound2, [](std::size_t) { return true; }, visit);
+  }
+  /// The same without the nodes for which may(node) is false, and all below them.
+  template <class Place, class May, class Visit>
+  void visit_near(const Place& p, double& bound2, May&& may, Visit&& visit) const {
     if (order_.empty()) return;
     std::array<std::pair<std::size_t, double>, kMaxLevels + 2> stack;
     std::size_t depth = 0;
     stack[depth++] = {0, nodes_[0].distance2(p)};
     while (depth > 0) {
       const auto [node, near2] = stack[--depth];
-      if (near2 >= bound2) continue;
+      if (near2 >= bound2 || !may(node)) continue;
       if (node >= first_leaf()) {
         const auto [begin, end] = range(levels_, node - first_leaf());
         for (std::size_t slot = begin; slot < end; ++slot) visit(slot);

@@ -25,6 +25,8 @@ double least_dot(const Vec3& n, const Box& box) {
          std::min(n.z * box.low.z, n.z * box.high.z);
 }
 
+double square(double x) { return x * x; }
+
 double most_dot(const Vec3& n, const Box& box) { return -least_dot(-n, box); }
 
 }  // namespace
@@ -67,6 +69,17 @@ bool Sheets::some_may_face(std::size_t t, std::size_t node, const Facing& facing
          (!one_sided_[t] && least_dot(-normals_[t], normals) <= facing.normals_cosine);
 }
 
+template <class Place>
+bool Sheets::some_may_be_opposite(std::size_t t, const Place& place, double height,
+                                  std::size_t node, const Facing& facing) const {
+  // Most of what is near is the sheet of t itself, which turns away from it nowhere, or is aside of
+  // the cone ahead, or, in thin bodies, on their other side, behind the plane of t.
+  const Box& below = tree_.box_of(node);
+  const double ahead = most_dot(facing.side * normals_[t], below) - height;
+  return ahead >= 0 && square(ahead) >= square(facing.cone_cosine) * below.distance2(place) &&
+         some_may_face(t, node, facing);
+}
+
 void Sheets::improve(std::size_t t, const Vec3& place, std::size_t s, const Facing& facing,
                      Hit& hit) const {
   const auto& [a, b, c] = triangles_[s];
@@ -79,12 +92,34 @@ void Sheets::improve(std::size_t t, const Vec3& place, std::size_t s, const Faci
 
 double Sheets::opposite(std::size_t t, const Vec3& place, const Facing& facing,
                         double reach) const {
+  const double height = dot(facing.side * normals_[t], place);
   Hit hit{-1, reach * reach};
-  tree_.visit_near(place, hit.distance2, [&](std::size_t slot) {
-    const auto s = std::size_t(tree_.order()[slot]);
-    if (may_face(t, s, facing)) improve(t, place, s, facing, hit);
-  });
+  tree_.visit_near(
+      place, hit.distance2,
+      [&](std::size_t node) { return some_may_be_opposite(t, place, height, node, facing); },
+      [&](std::size_t slot) {
+        const auto s = std::size_t(tree_.order()[slot]);
+        if (may_face(t, s, facing)) improve(t, place, s, facing, hit);
+      });
   return hit.triangle < 0 ? kNothing : std::sqrt(hit.distance2);
+}
+
+Sheets::Hit Sheets::nearest_opposite(std::size_t t, const Facing& facing, double reach) const {
+  const auto& [a, b, c] = triangles_[t];
+  Box box{a, a};
+  box.add(b), box.add(c);
+  const Vec3 ahead = facing.side * normals_[t];
+  const double height = std::min({dot(ahead, a), dot(ahead, b), dot(ahead, c)});
+  Hit hit{-1, reach * reach};
+  tree_.visit_near(
+      box, hit.distance2,
+      [&](std::size_t node) { return some_may_be_opposite(t, box, height, node, facing); },
+      [&](std::size_t slot) {
+        const auto s = std::size_t(tree_.order()[slot]);
+        if (!may_face(t, s, facing)) return;
+        for (const Vec3& x : {a, b, c, (a + b + c) / 3}) improve(t, x, s, facing, hit);
+      });
+  return hit;
 }
 
 std::vector<double> Sheets::all_opposite(const Facing& facing,
@@ -93,25 +128,7 @@ std::vector<double> Sheets::all_opposite(const Facing& facing,
   parallel_for(
       hits.size(),
       [&](std::size_t t) {
-        const double r = reach(t);
-        if (!(r > 0)) return;
-        const auto& [a, b, c] = triangles_[t];
-        Box box{a, a};
-        box.add(b), box.add(c);
-        box = box.widened(r);
-        hits[t].distance2 = r * r;
-        // Most of what is near is the sheet of t itself, which turns away from it nowhere, or, in
-        // thin bodies, that on their other side, which is all behind its plane.
-        const Vec3 ahead = facing.side * normals_[t];
-        const double plane = std::min({dot(ahead, a), dot(ahead, b), dot(ahead, c)});
-        const auto may = [&](std::size_t node) {
-          return some_may_face(t, node, facing) && !(most_dot(ahead, tree_.box_of(node)) < plane);
-        };
-        tree_.visit_overlapping(box, may, [&](std::size_t slot) {
-          const auto s = std::size_t(tree_.order()[slot]);
-          if (!may_face(t, s, facing)) return;
-          for (const Vec3& x : {a, b, c, (a + b + c) / 3}) improve(t, x, s, facing, hits[t]);
-        });
+        if (const double r = reach(t); r > 0) hits[t] = nearest_opposite(t, facing, r);
       },
       kGrain);
   std::vector<double> nearest(hits.size(), kNothing);

@@ -50,9 +50,15 @@ class Sheets {
   /// Whether some triangle below a node of the tree may be opposite t, for all that is known of
   /// their normals.
   bool some_may_face(std::size_t t, std::size_t node, const Facing& facing) const;
+  /// The same for all that is known of their places, too, as seen from a place, or a box of them,
+  /// of t at `height` along its normal or more.
+  template <class Place>
+  bool some_may_be_opposite(std::size_t t, const Place& place, double height, std::size_t node,
+                            const Facing& facing) const;
   /// Sees whether s is nearer to a place on t than what it has hit.
   void improve(std::size_t t, const Vec3& place, std::size_t s, const Facing& facing,
                Hit& hit) const;
+  Hit nearest_opposite(std::size_t t, const Facing& facing, double reach) const;
   bool apart(std::size_t s, std::size_t t) const;
 
   std::vector<Corners> triangles_;
