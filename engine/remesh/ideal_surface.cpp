@@ -18,9 +18,10 @@ FeatureOptions feature_options(const Options& options, const ResolvedOptions& r)
   // 6 of them in w it is better to follow the crease, too; but where it is slight the shape is
   // meant to be smooth, and only the tolerance too small for its facets.
   constexpr double kBulge = 8, kCrease = 6 * 3.5, kSlight = 20;
-  constexpr double kSliver = 1;  // of hausd: no more than what the surface may be off anyway
+  // Of hausd, which the surface may be off anyway; but a tip that is let go slides down by more.
+  constexpr double kSliver = 1, kTip = 0.5;
   FeatureOptions o;
-  o.sliver = kSliver * r.hausd;
+  o.sliver = kSliver * r.hausd, o.least_tip = kTip * r.hausd;
   o.angle = options.angle, o.detect_ridges = options.detect_ridges;
   // What is left of a ridge that goes on until it is as slight is round within the tolerance.
   if (!options.faceted) o.continued_above = kSlight;

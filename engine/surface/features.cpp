@@ -287,7 +287,7 @@ class Tips {
 void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars,
                   const FeatureOptions& options) {
   const Sharpness sharpness(options);
-  const Tips tips(m, options.sliver);
+  const Tips tips(m, options.least_tip);
   for (std::size_t v = 0; v < stars.size(); ++v) {
     const FeatureStar& star = stars[v];
     if (star.fans == 0) continue;

@@ -23,6 +23,8 @@ struct FeatureOptions {
   /// A triangle of less height than this may make no fold between two that make none without it,
   /// of which one is over its longest edge: its own normal is that of noise.
   double sliver = 0;
+  /// A tip that stands out by less than this is noise.
+  double least_tip = 0;
   /// If set, only edges that it takes are ridges, whether found or carried by the mesh. Called from
   /// many threads.
   std::function<bool(VertexId, VertexId)> may_be_ridge = {};

@@ -343,13 +343,16 @@ TetMesh double_cone(double height) {
 }
 
 TEST(ClassifyFeatures, TheTipOfASharpConeIsACorner) {
-  TetMesh sharp = double_cone(1.2), blunt = double_cone(0.8), low = double_cone(1.2);
+  TetMesh sharp = double_cone(1.2), blunt = double_cone(0.8), flat = double_cone(1.2), low = flat;
   FeatureOptions options;
   classify_features(sharp, options);
   EXPECT_EQ(vertices_with(sharp, tag::kCorner), (std::set<VertexId>{0, 1}));
   classify_features(blunt, options);
   EXPECT_TRUE(vertices_with(blunt, tag::kCorner).empty());
-  options.sliver = 1.3;  // tips of less height are noise
+  options.sliver = 1.3;  // which says nothing of tips
+  classify_features(flat, options);
+  EXPECT_EQ(vertices_with(flat, tag::kCorner), (std::set<VertexId>{0, 1}));
+  options.least_tip = 1.3;
   classify_features(low, options);
   EXPECT_TRUE(vertices_with(low, tag::kCorner).empty());
 }
