@@ -61,19 +61,13 @@ class BoxTree {
   /// some more.
   template <class Visit>
   void visit_overlapping(const Box& box, Visit&& visit) const {
-    visit_overlapping(
-        box, [](std::size_t) { return true; }, visit);
-  }
-  /// The same without the nodes for which may(node) is false, and all below them.
-  template <class May, class Visit>
-  void visit_overlapping(const Box& box, May&& may, Visit&& visit) const {
     if (order_.empty()) return;
     std::array<std::size_t, kMaxLevels + 2> stack;
     std::size_t depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
       const std::size_t node = stack[--depth];
-      if (!nodes_[node].overlaps(box) || !may(node)) continue;
+      if (!nodes_[node].overlaps(box)) continue;
       if (node < first_leaf()) {
         stack[depth++] = 2 * node + 1;
         stack[depth++] = 2 * node + 2;

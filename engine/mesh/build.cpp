@@ -310,12 +310,10 @@ void peel(const MeshData& data, std::vector<VertexId>& new_vertex, BuildResult& 
     const auto at = std::ranges::lower_bound(peeled.vertices, new_vertex[v]);
     if (at != peeled.vertices.end() && *at == new_vertex[v]) {
       new_vertex[v] = kNone;
-      out.unused_vertices.push_back(std::int32_t(v));
     } else {
       new_vertex[v] -= VertexId(at - peeled.vertices.begin());
     }
   }
-  std::ranges::sort(out.unused_vertices);
 }
 
 }  // namespace
@@ -349,7 +347,6 @@ BuildResult build(MeshData data, const BuildOptions& options) {
   TetMesh& mesh = out.mesh;
   std::vector<VertexId> new_vertex = take_vertices(data, mesh);
   out.summary.unused_vertices = std::int64_t(new_vertex.size() - mesh.points.size());
-  if (out.summary.unused_vertices != 0) out.unused_vertices = unused_of(new_vertex);
   take_tets(data, new_vertex, mesh, out.summary);
   link_faces(mesh);
   if (out.summary.flat_tets != 0) orient_flat_tets(mesh);
@@ -360,6 +357,7 @@ BuildResult build(MeshData data, const BuildOptions& options) {
   make_triangles(faces, listed, mesh, out.summary);
   attach_triangles(mesh, faces);
   peel(data, new_vertex, out);
+  if (mesh.points.size() < new_vertex.size()) out.unused_vertices = unused_of(new_vertex);
   if (options.keep_internal) orient_internal_sheets(mesh);
   tag_features(mesh, data, new_vertex, out.summary);
   take_normals(data, new_vertex, mesh);

@@ -92,16 +92,15 @@ class FlatTetPeeler {
  public:
   FlatTetPeeler(TetMesh& mesh, std::span<const VertexId> kept)
       : m_(mesh), kept_(kept.begin(), kept.end()), on_surface_(mesh.points.size()) {
-    for (const Triangle& s : m_.triangles) {
-      count_edges(s.v, 1);
+    for (const Triangle& s : m_.triangles)
       for (const VertexId v : s.v) on_surface_[v] = 1;
-    }
   }
 
   Peeled run() {
     find_clusters();
     if (std::ranges::none_of(clusters_, [&](const Cluster& c) { return hides_a_vertex(c); }))
       return {};
+    for (const Triangle& s : m_.triangles) count_edges(s.v, 1);
     std::vector<TriangleId> outer;
     for (const Cluster& c : clusters_) outer.insert(outer.end(), c.outer.begin(), c.outer.end());
     const OldSurface old(m_, outer);

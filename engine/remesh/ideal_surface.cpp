@@ -23,12 +23,13 @@ FeatureOptions feature_options(const Options& options, const ResolvedOptions& r)
   FeatureOptions o;
   o.sliver = kSliver * r.hausd, o.least_tip = kTip * r.hausd;
   o.angle = options.angle, o.detect_ridges = options.detect_ridges;
-  // What is left of a ridge that goes on until it is as slight is round within the tolerance.
-  if (!options.faceted) o.continued_above = kSlight;
-  if (options.faceted)
+  if (options.faceted) {
     o.crease = kFold * r.hausd, o.flat = true;
-  else if (o.detect_ridges)
+  } else if (o.detect_ridges) {
     o.crease = kBulge * r.max_bulge + kCrease * r.hausd, o.least_crease_angle = kSlight;
+    // What is left of a ridge that goes on until it is as slight is round within the tolerance.
+    o.continued_above = kSlight;
+  }
   return o;
 }
 

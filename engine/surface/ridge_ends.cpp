@@ -12,15 +12,40 @@ namespace {
 
 class Continuation {
  public:
-  Continuation(TetMesh& m, const std::vector<EdgeSide>& sides, const FoldAngle& fold)
-      : m_(m),
-        sides_(sides),
-        folds_(3 * m.triangles.size(), 0),
-        across_(3 * m.triangles.size(), kNone),
-        degrees_(m.points.size(), 0) {
-    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+  Continuation(TetMesh& m, const std::vector<EdgeSide>& sides)
+      : m_(m), sides_(sides), degrees_(m.points.size(), 0) {
+    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide*) {
       if (tags(*begin) & (tag::kRidge | tag::kNonManifold))
         ++degrees_[begin->a], ++degrees_[begin->b];
+    });
+  }
+
+  void run(const FoldAngle& fold, double least_angle,
+           const std::function<bool(VertexId, VertexId)>& taken) {
+    const std::vector<std::size_t> last = last_edges();
+    if (last.empty()) return;
+    measure_folds(fold);
+    find_creases(least_angle, taken);
+    for (const std::size_t i : last)
+      for (const VertexId v : {sides_[i].a, sides_[i].b})
+        if (degrees_[v] == 1) follow(i, v);
+  }
+
+ private:
+  /// Ridge edges with an end, as the tags are before any goes on.
+  std::vector<std::size_t> last_edges() const {
+    std::vector<std::size_t> last;
+    for (std::size_t i = 0; i < sides_.size(); ++i)
+      if (is_first(i) && is_ridge(sides_[i]) &&
+          (degrees_[sides_[i].a] == 1 || degrees_[sides_[i].b] == 1))
+        last.push_back(i);
+    return last;
+  }
+
+  void measure_folds(const FoldAngle& fold) {
+    folds_.assign(3 * m_.triangles.size(), 0);
+    across_.assign(3 * m_.triangles.size(), kNone);
+    parallel_for_each_edge(sides_, [&](const EdgeSide* begin, const EdgeSide* end) {
       if (end - begin != 2) return;
       const double angle = fold(begin[0].triangle, begin[1].triangle);
       for (int i = 0; i < 2; ++i) {
@@ -30,19 +55,6 @@ class Continuation {
     });
   }
 
-  void run(double least_angle, const std::function<bool(VertexId, VertexId)>& taken) {
-    find_creases(least_angle, taken);
-    std::vector<std::size_t> last;  // ridge edges with an end, as the tags are before any goes on
-    for (std::size_t i = 0; i < sides_.size(); ++i)
-      if (is_first(i) && is_ridge(sides_[i]) &&
-          (degrees_[sides_[i].a] == 1 || degrees_[sides_[i].b] == 1))
-        last.push_back(i);
-    for (const std::size_t i : last)
-      for (const VertexId v : {sides_[i].a, sides_[i].b})
-        if (degrees_[v] == 1) follow(i, v);
-  }
-
- private:
   static std::size_t slot(const EdgeSide& s) {
     return 3 * std::size_t(s.triangle) + std::size_t(s.k);
   }
@@ -129,7 +141,7 @@ class Continuation {
 
 void continue_ridges(TetMesh& mesh, const std::vector<EdgeSide>& sides, const FoldAngle& fold,
                      double least_angle, const std::function<bool(VertexId, VertexId)>& taken) {
-  Continuation(mesh, sides, fold).run(least_angle, taken);
+  Continuation(mesh, sides).run(fold, least_angle, taken);
 }
 
 }  // namespace cavea

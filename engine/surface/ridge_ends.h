@@ -7,7 +7,7 @@
 
 namespace cavea {
 
-/// The fold at an edge of two triangles, in radians.
+/// The fold at an edge of two triangles, in radians. Called from many threads.
 using FoldAngle = std::function<double(TriangleId, TriangleId)>;
 
 /// Tags the edges that go on from the ends of ridges. Where two round walls cut each other, the

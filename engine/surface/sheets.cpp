@@ -90,36 +90,35 @@ void Sheets::improve(std::size_t t, const Vec3& place, std::size_t s, const Faci
     hit = {std::int32_t(s), near.distance2};
 }
 
-double Sheets::opposite(std::size_t t, const Vec3& place, const Facing& facing,
-                        double reach) const {
-  const double height = dot(facing.side * normals_[t], place);
+template <class Place>
+Sheets::Hit Sheets::nearest(std::size_t t, const Place& around, std::span<const Vec3> places,
+                            const Facing& facing, double reach) const {
+  double height = std::numeric_limits<double>::infinity();
+  for (const Vec3& p : places) height = std::min(height, dot(facing.side * normals_[t], p));
   Hit hit{-1, reach * reach};
   tree_.visit_near(
-      place, hit.distance2,
-      [&](std::size_t node) { return some_may_be_opposite(t, place, height, node, facing); },
-      [&](std::size_t slot) {
-        const auto s = std::size_t(tree_.order()[slot]);
-        if (may_face(t, s, facing)) improve(t, place, s, facing, hit);
-      });
-  return hit.triangle < 0 ? kNothing : std::sqrt(hit.distance2);
-}
-
-Sheets::Hit Sheets::nearest_opposite(std::size_t t, const Facing& facing, double reach) const {
-  const auto& [a, b, c] = triangles_[t];
-  Box box{a, a};
-  box.add(b), box.add(c);
-  const Vec3 ahead = facing.side * normals_[t];
-  const double height = std::min({dot(ahead, a), dot(ahead, b), dot(ahead, c)});
-  Hit hit{-1, reach * reach};
-  tree_.visit_near(
-      box, hit.distance2,
-      [&](std::size_t node) { return some_may_be_opposite(t, box, height, node, facing); },
+      around, hit.distance2,
+      [&](std::size_t node) { return some_may_be_opposite(t, around, height, node, facing); },
       [&](std::size_t slot) {
         const auto s = std::size_t(tree_.order()[slot]);
         if (!may_face(t, s, facing)) return;
-        for (const Vec3& x : {a, b, c, (a + b + c) / 3}) improve(t, x, s, facing, hit);
+        for (const Vec3& p : places) improve(t, p, s, facing, hit);
       });
   return hit;
+}
+
+double Sheets::opposite(std::size_t t, const Vec3& place, const Facing& facing,
+                        double reach) const {
+  const Hit hit = nearest(t, place, {&place, 1}, facing, reach);
+  return hit.triangle < 0 ? kNothing : std::sqrt(hit.distance2);
+}
+
+Sheets::Hit Sheets::nearest_of_triangle(std::size_t t, const Facing& facing, double reach) const {
+  const auto& [a, b, c] = triangles_[t];
+  const Vec3 places[] = {a, b, c, (a + b + c) / 3};
+  Box box;
+  for (const Vec3& p : triangles_[t]) box.add(p);
+  return nearest(t, box, places, facing, reach);
 }
 
 std::vector<double> Sheets::all_opposite(const Facing& facing,
@@ -128,7 +127,7 @@ std::vector<double> Sheets::all_opposite(const Facing& facing,
   parallel_for(
       hits.size(),
       [&](std::size_t t) {
-        if (const double r = reach(t); r > 0) hits[t] = nearest_opposite(t, facing, r);
+        if (const double r = reach(t); r > 0) hits[t] = nearest_of_triangle(t, facing, r);
       },
       kGrain);
   std::vector<double> nearest(hits.size(), kNothing);

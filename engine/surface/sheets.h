@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "cavea/geometry/box_tree.h"
@@ -58,7 +59,11 @@ class Sheets {
   /// Sees whether s is nearer to a place on t than what it has hit.
   void improve(std::size_t t, const Vec3& place, std::size_t s, const Facing& facing,
                Hit& hit) const;
-  Hit nearest_opposite(std::size_t t, const Facing& facing, double reach) const;
+  /// What is nearest to any of some places on t, all of them in `around`.
+  template <class Place>
+  Hit nearest(std::size_t t, const Place& around, std::span<const Vec3> places,
+              const Facing& facing, double reach) const;
+  Hit nearest_of_triangle(std::size_t t, const Facing& facing, double reach) const;
   bool apart(std::size_t s, std::size_t t) const;
 
   std::vector<Corners> triangles_;

@@ -7,7 +7,6 @@
 
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/check.h"
-#include "cavea/mesh/faces.h"
 #include "cavea/mesh/peel_flat.h"
 #include "support/meshes.h"
 
@@ -23,19 +22,14 @@ class CoveredCube {
  public:
   CoveredCube(int n, std::uint64_t seed) : data_(test::kuhn_cube(n)), random_(seed) {
     const TetMesh mesh = build(data_).mesh;
-    for (const Triangle& s : mesh.triangles) {
-      const int side = side_of(s.v);
-      surface_.push_back(s.v);
-      data_.triangles.push_back(s.v), data_.triangle_refs.push_back(side);
-    }
+    for (const Triangle& s : mesh.triangles) surface_.push_back(s.v);
   }
 
   void cover(int times) {
     for (int i = 0; i < times; ++i)
       if (!hide(random_triangle()[0])) turn_at(random_triangle());
-    data_.triangles.clear(), data_.triangle_refs.clear();
-    for (const Face& f : surface_)
-      data_.triangles.push_back(f), data_.triangle_refs.push_back(side_of(f));
+    data_.triangles = surface_;
+    for (const Face& f : surface_) data_.triangle_refs.push_back(side_of(f));
     data_.tet_refs.assign(data_.tets.size(), 1);
   }
 
