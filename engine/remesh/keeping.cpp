@@ -4,6 +4,7 @@
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/job.h"
 #include "cavea/remesh/standing.h"
+#include "cavea/remesh/stubborn.h"
 
 namespace cavea {
 namespace {
@@ -18,7 +19,7 @@ class Judge {
     keeping_.stands = keeping_.possible && stands();
     if (!keeping_.stands) return keeping_;
     ask_nothing(job_.mesh);
-    if (effort_ != Effort::kLeave && !none_is_poor(before_) && few_are_poor(job_.mesh)) {
+    if (effort_ != Effort::kLeave && !is_sound_but_for_chance() && few_are_poor(job_.mesh)) {
       keeping_.poor = count_poor(job_.mesh);
       ask_poor(job_.mesh);
     }
@@ -43,6 +44,7 @@ class Judge {
     job_.mesh.sizes.swap(sizes);
     before_.lengths = length_statistics(job_.mesh);
     if (surely || is_good()) return true;
+    keeping_.own_lengths = before_.lengths;
     job_.mesh.sizes.swap(sizes);
     before_.lengths = in_wanted;
     return false;
@@ -51,6 +53,12 @@ class Judge {
   bool is_good() const {
     return is_as_good_as_results(before_, job_.r.uniform(), job_.options.min_conform) &&
            (none_is_poor(before_) || few_are_poor(job_.mesh));
+  }
+
+  /// To mend a few tets that would do asks far more around them.
+  bool is_sound_but_for_chance() const {
+    return none_is_poor(before_) ||
+           (before_.quality.worst >= kSoundQuality && hardly_any_is_poor(job_.mesh));
   }
 
   bool is_near() {

@@ -1,5 +1,8 @@
 #pragma once
 #include <cstdint>
+#include <optional>
+
+#include "cavea/mesh/statistics.h"
 
 namespace cavea {
 
@@ -11,6 +14,8 @@ struct Keeping {
   bool stands = false;     ///< all is kept, but for poor tets
   std::int64_t poor = 0;   ///< so many of these are asked
   bool made_room = false;  ///< the input may be a result for which the sizes were made finer
+  /// In the sizes that the input has, if it may be a result.
+  std::optional<LengthStatistics> own_lengths;
 
   bool leaves_all() const { return stands && poor == 0; }
 };

@@ -11,7 +11,7 @@ bool has_room(const MeshSummary& after) {
 }
 
 bool is_coarse_mesh(const MeshSummary& after) {
-  constexpr std::int64_t kCoarseMesh = 50000;
+  constexpr std::int64_t kCoarseMesh = 150000;
   return after.counts.tets < kCoarseMesh;
 }
 

@@ -40,8 +40,11 @@ bool Run::stands() {
 }
 
 bool Run::in_vain() const {
-  return job_.keeping.possible && !job_.keeping.stands &&
-         gained_nothing(job_.report.before, job_.report.after, job_.options);
+  if (!job_.keeping.possible || job_.keeping.stands) return false;
+  MeshSummary before = job_.report.before;
+  // A result's surface asks for other sizes than the one that it was made for.
+  before.lengths = job_.keeping.own_lengths.value_or(before.lengths);
+  return gained_nothing(before, job_.report.after, job_.options);
 }
 
 bool Run::mended_in_vain() const {

@@ -32,6 +32,9 @@ constexpr double kTooLong = 2.6, kTooShort = 0.3;
 /// More poor tets than this share are not exceptions.
 constexpr double kFew = 0.01;
 
+/// Results may have so many by chance: seen are 1 of 29 thousand and 3 of 17 thousand.
+constexpr double kHardlyAny = 0.0005;
+
 bool is_poor(const TetMesh& m, TetId t) {
   if (m.qualities[t] < kPoorQuality) return true;
   return std::ranges::any_of(kEdgeVertices, [&](const auto& e) {
@@ -140,6 +143,10 @@ bool none_is_poor(const MeshSummary& now) {
 
 bool few_are_poor(const TetMesh& mesh) {
   return double(count_poor(mesh)) <= kFew * double(mesh.tets.size());
+}
+
+bool hardly_any_is_poor(const TetMesh& mesh) {
+  return double(count_poor(mesh)) <= kHardlyAny * double(mesh.tets.size());
 }
 
 void ask_poor(TetMesh& mesh) {

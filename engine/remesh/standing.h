@@ -52,7 +52,10 @@ bool none_is_poor(const MeshSummary& now);
 /// Whether so few are poor that they may be mended one by one.
 bool few_are_poor(const TetMesh& mesh);
 
-/// Asks those tets everything.
+/// Whether there are only as many as results have by chance.
+bool hardly_any_is_poor(const TetMesh& mesh);
+
+/// Asks the poor tets everything.
 void ask_poor(TetMesh& mesh);
 
 }  // namespace cavea
