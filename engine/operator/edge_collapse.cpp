@@ -1,5 +1,7 @@
 #include "cavea/operator/edge_collapse.h"
 
+#include <algorithm>
+
 #include "cavea/geometry/closest.h"
 
 namespace cavea {
@@ -46,23 +48,50 @@ bool is_third(const Shell& s, VertexId v) {
   return false;
 }
 
+bool has(const TetMesh& m, TetId t, VertexId v) { return m.local_index(t, v) < 4; }
+
 bool next_to(const TetMesh& m, const Ball& ball, VertexId v) {
-  for (TetId t : ball.tets)
-    if (m.local_index(t, v) < 4) return true;
-  return false;
+  return std::ranges::any_of(ball.tets, [&](TetId t) { return has(m, t, v); });
 }
 
-/// Link condition on the surface: a vertex next to p on the surface and next to q at all is a third
-/// vertex of a triangle at pq, and no new surface triangle is there already. Positive volumes do
-/// not see such pinches.
-Verdict check_link(OperatorContext& c, const std::vector<TriangleId>& fan) {
+bool on_triangle(const TetMesh& m, const Ball& ball, VertexId v) {
+  bool found = false;
+  for_each_triangle(m, ball, [&](TriangleId id) { found |= index_in(m.triangles[id], v) < 3; });
+  return found;
+}
+
+/// May edge qr, which is there inside, come to the surface? Between it and the surface at p there
+/// must be nothing but tets that vanish. Exterior boundary only: interfaces have both sides.
+bool may_surface(const OperatorContext& c, VertexId r) {
+  const Shell& s = c.shell;
+  const auto is_exterior = [&](TriangleId id) { return !c.mesh.triangles[id].sides[1].is_tet(); };
+  return std::ranges::all_of(c.fan, is_exterior) && !(c.tags(r) & tag::kPinched) &&
+         std::ranges::any_of(s.tets, [&](TetId t) { return has(c.mesh, t, r); }) &&
+         !on_triangle(c.mesh, c.second_ball, r);
+}
+
+/// Whether there is a face qab that stays, and would be the place of the new triangle, too: but
+/// where the tet between the two vanishes, it is to come to the surface.
+bool is_face_in_the_way(const OperatorContext& c, VertexId a, VertexId b) {
+  const auto has_both = [&](TetId t) { return has(c.mesh, t, a) && has(c.mesh, t, b); };
+  const auto stays = [&](TetId t) { return !has(c.mesh, t, c.shell.p); };
+  return std::ranges::any_of(c.second_ball.tets,
+                             [&](TetId t) { return has_both(t) && stays(t); }) &&
+         std::ranges::none_of(c.shell.tets, has_both);
+}
+
+/// Link condition (Dey, Edelsbrunner, Guha, Nekhayev 1999) on the surface: a vertex next to p on
+/// the surface and next to q at all is a third vertex of a triangle at pq, or only tets that vanish
+/// are between, and no new surface triangle is there already. Positive volumes do not see such
+/// pinches.
+Verdict check_link(OperatorContext& c) {
   const Shell& s = c.shell;
   // Not all of q's tets would be in its ball.
   if (c.tags(s.q) & tag::kPinched) return Verdict::kBreaksTopology;
   Ball& ball_q = c.second_ball;
   gather_ball(c.mesh, s.q, c.marker, ball_q);
   const bool q_frozen = c.tags(s.q) & tag::kFrozen;
-  for (TriangleId id : fan) {
+  for (TriangleId id : c.fan) {
     const Triangle& t = c.mesh.triangles[id];
     if (index_in(t, s.q) < 3) continue;
     const int ip = index_in(t, s.p);
@@ -73,8 +102,9 @@ Verdict check_link(OperatorContext& c, const std::vector<TriangleId>& fan) {
       if (is_third(s, r)) continue;
       // An edge qr could stand in another part, out of sight.
       if (q_frozen && (c.tags(r) & tag::kFrozen)) return Verdict::kFrozen;
-      if (next_to(c.mesh, ball_q, r)) return Verdict::kBreaksTopology;
+      if (next_to(c.mesh, ball_q, r) && !may_surface(c, r)) return Verdict::kBreaksTopology;
     }
+    if (is_face_in_the_way(c, a, b)) return Verdict::kBreaksTopology;
     bool exists = false;
     for_each_triangle(c.mesh, ball_q, [&](TriangleId other) {
       const Triangle& o = c.mesh.triangles[other];
@@ -225,7 +255,7 @@ Verdict edge_collapse_of_ball(OperatorContext& c, bool quality_gain, Cavity& cav
   if (c.tags(s.p) & tag::kSurface) {
     c.fan.clear();
     for_each_triangle(c.mesh, c.ball, [&](TriangleId t) { c.fan.push_back(t); });
-    if (const Verdict v = check_link(c, c.fan); v != Verdict::kAccept) return v;
+    if (const Verdict v = check_link(c); v != Verdict::kAccept) return v;
     make_triangles(c, c.fan, cavity);
     if (const Verdict v = check_surface(c, cavity); v != Verdict::kAccept) return v;
     if (c.tags(s.p) & tag::kOnCurve)

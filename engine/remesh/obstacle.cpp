@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cavea/geometry/dihedral.h"
+#include "cavea/operator/edge_collapse.h"
 
 namespace cavea {
 namespace {
@@ -24,6 +25,8 @@ constexpr double kNarrow = 0.3;
 /// The same where it is shorter than this share of the longest edge of its tet: if all others are
 /// alike, the quality is at most 0.3.
 constexpr double kNeedle = 0.2;
+/// A surface edge that is shorter than this, in wanted lengths, makes poor tets where it stays.
+constexpr double kBend = 0.4;
 /// Vertices on feature curves stay on them.
 constexpr Tag kHeld = tag::kFeature | tag::kCorner;
 /// If all edges at a vertex are within this angle of each other, in degrees, its tets have at most
@@ -211,6 +214,40 @@ bool is_between_walls(OperatorContext& c, TetId t, const Width& width) {
   return true;
 }
 
+/// The shortest surface edge of tet t, in wanted lengths, whose ends must both stay, for the
+/// surface bends too much between them or beside them.
+Bridge shortest_bend(OperatorContext& c, TetId t) {
+  const auto must_stay = [&](int i, int j) {
+    Cavity cavity;
+    gather_shell(c.mesh, t, i, j, c.shell);
+    if (!c.shell.on_surface()) return false;
+    const Verdict v = edge_collapse(c, true, cavity);
+    return v == Verdict::kOffSurface || v == Verdict::kFolded;
+  };
+  Bridge shortest;
+  for (const auto& e : kEdgeVertices) {
+    const VertexId a = c.mesh.tets[t][e[0]], b = c.mesh.tets[t][e[1]];
+    const double in_sizes = c.length(a, b);
+    if (in_sizes < std::min(shortest.in_sizes, kBend) && must_stay(e[0], e[1]) &&
+        must_stay(e[1], e[0]))
+      shortest = {distance(c.point(a), c.point(b)), in_sizes};
+  }
+  return shortest;
+}
+
+/// How far the surface triangles at edges of tet t are from the ideal surface, in tolerances.
+double largest_deviation(OperatorContext& c, TetId t) {
+  c.fan.clear();
+  for (const VertexId v : c.mesh.tets[t]) {
+    gather_ball(c.mesh, v, c.marker, c.ball);
+    for_each_triangle(c.mesh, c.ball, [&](TriangleId id) {
+      const auto in_t = [&](VertexId w) { return c.mesh.local_index(t, w) < 4; };
+      if (std::ranges::count_if(c.mesh.triangles[id].v, in_t) > 1) c.fan.push_back(id);
+    });
+  }
+  return c.limits.tolerance_share * std::sqrt(fit_of(c, c.fan).deviation2);
+}
+
 std::string obstacle_at(OperatorContext& c, TetId t) {
   if (const double angle = sharpest_wedge(c, t); angle < kSmallAngle)
     return fmt::format("the surface meets itself at {:.3g} degrees", angle);
@@ -232,7 +269,14 @@ std::string obstacle_at(OperatorContext& c, TetId t) {
   if (width.thickness < c.limits.short_edge * size && is_between_walls(c, t, width))
     return fmt::format("the wall is {:.3g} thick, {:.2g} of the wanted length", width.thickness,
                        width.thickness / size);
-  return tip < kRatherSmallFaceAngle ? of_tip() : "";
+  if (tip < kRatherSmallFaceAngle) return of_tip();
+  if (const Bridge b = shortest_bend(c, t); b.length > 0)
+    return fmt::format("the surface bends within {:.3g}, {:.2g} of the wanted length", b.length,
+                       b.in_sizes);
+  if (const double off = largest_deviation(c, t); off > 1)
+    return fmt::format("the surface bends: triangles of the wanted size are {:.2g} tolerances off",
+                       off);
+  return "";
 }
 
 /// A tet and poor ones around it, each of which has a vertex in common with one before.

@@ -6,8 +6,9 @@
 namespace cavea {
 
 /// What about the domain forbids a good tet at the place of t or beside it, in words: the surface
-/// meets itself at a small angle there, feature curves do, or these or its walls are nearer to each
-/// other than edges may be short. Empty if none. \pre no holes, no part
+/// meets itself at a small angle there, feature curves do, these or its walls are nearer to each
+/// other than edges may be short, or the surface bends too much for edges of the wanted size. Empty
+/// if none. \pre no holes, no part
 std::string obstacle_of(OperatorContext& context, TetId t);
 
 }  // namespace cavea

@@ -43,6 +43,44 @@ TEST(EdgeCollapse, NeverJoinsTwoSurfacesThroughTheVolume) {
   }
 }
 
+/// Edges inside that the cavity at hand would bring to the surface.
+int edges_that_come_up(Stage& stage) {
+  const auto on_surface = [&](VertexId a, VertexId b) {
+    return stage.find_edge(a, b) && stage.context.shell.on_surface();
+  };
+  int come = 0;
+  for (const Triangle& t : stage.cavity.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId a = t.v[k], b = t.v[(k + 1) % 3];
+      come += stage.find_edge(a, b) && !on_surface(a, b);
+    }
+  return come;
+}
+
+// Where a tet has two surface triangles, a vertex of the edge between them can vanish into one of
+// the edge opposite: the tet goes, and that edge comes to the surface.
+TEST(EdgeCollapse, BringsEdgesToTheSurfaceBelowTetsThatVanish) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Stage stage(shuffled(ball(12), seed));
+    stage.context.limits.quality_ratio = 0;
+    const Euler before = euler(stage.mesh);
+    int found = 0;
+    std::vector<Edge> edges = edges_of(stage.mesh);
+    shuffle(edges, seed);
+    for (const auto& [p, q] : edges) {
+      if (!stage.find_edge(p, q) || !stage.context.shell.on_surface()) continue;
+      if (stage.collapse() != Verdict::kAccept) continue;
+      if (edges_that_come_up(stage) == 0) continue;
+      stage.editor.commit(stage.cavity);
+      ++found;
+      expect_sound(stage.mesh);
+    }
+    EXPECT_GT(found, 10);
+    EXPECT_EQ(euler(stage.mesh), before);
+  }
+}
+
 TEST(EdgeCollapse, KeepsFeatureVerticesOnTheirCurvesAndCornersWhereTheyAre) {
   for (const Subject& subject : subjects()) {
     SCOPED_TRACE(subject.name);

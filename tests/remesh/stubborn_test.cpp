@@ -125,6 +125,23 @@ TEST(Stubborn, TetsAtANarrowStripBetweenCurvesAreNamedWithItsWidth) {
   EXPECT_GT(narrow, 0);
 }
 
+// The crest of a wave is rounder than edges of the wanted size can follow.
+TEST(Stubborn, TetsWhereTheSurfaceBendsBetweenVerticesAreNamed) {
+  const MeshData crest = mapped(kuhn_cube(20), [](const Vec3& p) {
+    const double x = (p.x - 0.5 - 0.1 * p.y) / 0.05;
+    return Vec3{p.x, p.y, p.z * (0.5 + 0.15 * std::exp(-x * x))};
+  });
+  Options options = uniform(0.2);
+  options.detect_ridges = false;
+  options.hausd = 0.002;
+  const std::vector<StubbornTet> stubborn = report_of(crest, options).stubborn;
+  const auto named = [&](const std::string& what) {
+    return std::ranges::count_if(stubborn, [&](const StubbornTet& t) { return says(t, what); });
+  };
+  EXPECT_GT(named("the surface bends within"), 0);
+  EXPECT_GT(named("triangles of the wanted size are"), 0);
+}
+
 TEST(Stubborn, AreNoneInAGoodMesh) {
   const Report report = report_of(kuhn_cube(4), uniform(0.1));
   EXPECT_GE(report.after.quality.worst, 0.3);
