@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,7 +24,9 @@ class Buckets {
   Buckets(std::size_t items, std::size_t keys, Emit&& emit) : ends_(keys, 0) {
     parallel_for(items,
                  [&](std::size_t i) { emit(i, [&](auto key, std::uint32_t) { next(key); }); });
-    values_.resize(exclusive_scan(ends_));
+    size_ = exclusive_scan(ends_);
+    // Unset: all threads touch the new memory as they fill it, in place of one that clears it.
+    values_ = std::make_unique_for_overwrite<std::uint32_t[]>(size_);
     // Each cursor starts at the begin of its bucket and stops at its end.
     parallel_for(items, [&](std::size_t i) {
       emit(i, [&](auto key, std::uint32_t value) { values_[next(key)] = value; });
@@ -31,16 +34,16 @@ class Buckets {
   }
 
   std::size_t keys() const { return ends_.size(); }
-  std::size_t size() const { return values_.size(); }
+  std::size_t size() const { return size_; }
   std::size_t begin_of(std::size_t key) const { return key == 0 ? 0 : ends_[key - 1]; }
   std::size_t end_of(std::size_t key) const { return ends_[key]; }
   std::uint32_t operator[](std::size_t slot) const { return values_[slot]; }
 
   std::span<std::uint32_t> of(std::size_t key) {
-    return {values_.data() + begin_of(key), end_of(key) - begin_of(key)};
+    return {values_.get() + begin_of(key), end_of(key) - begin_of(key)};
   }
   std::span<const std::uint32_t> of(std::size_t key) const {
-    return {values_.data() + begin_of(key), end_of(key) - begin_of(key)};
+    return {values_.get() + begin_of(key), end_of(key) - begin_of(key)};
   }
 
  private:
@@ -51,7 +54,8 @@ class Buckets {
   }
 
   std::vector<std::uint32_t> ends_;
-  std::vector<std::uint32_t> values_;
+  std::unique_ptr<std::uint32_t[]> values_;
+  std::size_t size_ = 0;
 };
 
 /// Each value of a bucket once, rising: the bucket's beginning. Its end is left in disorder.

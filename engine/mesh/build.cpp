@@ -203,6 +203,7 @@ void take_tets(MeshData& data, const std::vector<VertexId>& new_vertex, TetMesh&
 struct ListedTriangles {
   static constexpr std::uint32_t kUnlisted = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> at_slot;  ///< listed triangle at the first slot of its faces
+  std::vector<std::uint32_t> slot_of;  ///< by listed triangle, the first slot of its faces
   std::vector<char> kept;              ///< by listed triangle
 };
 
@@ -210,6 +211,7 @@ ListedTriangles find_listed(const MeshData& data, const std::vector<VertexId>& n
                             const TetMesh& mesh, const SurfaceFaces& faces) {
   const std::size_t n = data.triangles.size();
   ListedTriangles out{std::vector<std::uint32_t>(faces.slots(), ListedTriangles::kUnlisted),
+                      std::vector<std::uint32_t>(n, ListedTriangles::kUnlisted),
                       std::vector<char>(n, 0)};
   const auto slots_of = [&](std::size_t i) {
     const auto& v = data.triangles[i];
@@ -219,20 +221,15 @@ ListedTriangles find_listed(const MeshData& data, const std::vector<VertexId>& n
   };
   parallel_for(n, [&](std::size_t i) {
     const auto [begin, end] = slots_of(i);
-    if (begin != end) atomic_min(out.at_slot[begin], std::uint32_t(i));
+    if (begin == end) return;
+    out.slot_of[i] = std::uint32_t(begin);
+    atomic_min(out.at_slot[begin], std::uint32_t(i));
   });
   parallel_for(n, [&](std::size_t i) {
-    const auto [begin, end] = slots_of(i);
-    out.kept[i] = begin != end && out.at_slot[begin] == i;
+    const std::uint32_t slot = out.slot_of[i];
+    out.kept[i] = slot != ListedTriangles::kUnlisted && out.at_slot[slot] == i;
   });
   return out;
-}
-
-/// Whether the faces on three vertices are those of two tets of one reference.
-bool is_inside(const TetMesh& mesh, const SurfaceFaces& faces,
-               const std::array<VertexId, 3>& vertices) {
-  const FaceLink face = faces[faces.find(mesh, vertices).first];
-  return !is_surface_face(mesh, face.tet(), face.face());
 }
 
 /// Copies the listed triangles that are kept, in their order.
@@ -247,7 +244,8 @@ void take_triangles(const MeshData& data, const std::vector<VertexId>& new_verte
     Triangle& s = mesh.triangles[ids.new_id[i]];
     for (int k = 0; k < 3; ++k) s.v[k] = new_vertex[data.triangles[i][k]];
     if (!data.triangle_refs.empty()) s.ref = data.triangle_refs[i];
-    if (is_inside(mesh, faces, s.v)) s.tags = tag::kInternal;
+    const FaceLink face = faces[listed.slot_of[i]];
+    if (!is_surface_face(mesh, face.tet(), face.face())) s.tags = tag::kInternal;
   });
   for (const std::int32_t i : data.required_triangles)
     if (ids.new_id[i] != kNone) mesh.triangles[ids.new_id[i]].tags |= tag::kRequired;

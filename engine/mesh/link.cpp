@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <bit>
 #include <functional>
 #include <limits>
 
 #include "cavea/base/atomic.h"
 #include "cavea/base/error.h"
 #include "cavea/base/prefetch.h"
+#include "cavea/base/scatter.h"
 #include "cavea/geometry/tet_block.h"
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/faces.h"
@@ -13,19 +15,35 @@
 namespace cavea {
 namespace {
 
+/// Where a vertex is in its tet, without a branch, which would mostly be guessed wrong.
+int position_in(const std::array<VertexId, 4>& tet, VertexId v) {
+  return int(tet[1] == v) + 2 * int(tet[2] == v) + 3 * int(tet[3] == v);
+}
+
 /// A face of a bucket, of which the bucket's vertex is the lowest.
 struct BucketFace {
   std::uint64_t key;  ///< the second and third vertex
   std::int32_t code;
   bool odd;
 
-  BucketFace(const TetMesh& mesh, VertexId lowest, TetId t, int f) : code(4 * t + f) {
-    const auto v = face_vertices(mesh.tets[t], f);
-    const int at = v[0] == lowest ? 0 : v[1] == lowest ? 1 : 2;
-    const VertexId a = v[(at + 1) % 3], b = v[(at + 2) % 3];
+  /// Face f of tet t, whose lowest vertex is `at` in the tet.
+  BucketFace(const std::array<VertexId, 4>& tet, int at, int f, TetId t) : code(4 * t + f) {
+    const auto [second, third] = kOthers[std::size_t(at)][std::size_t(f)];
+    const VertexId a = tet[second], b = tet[third];
     key = std::uint64_t(std::min(a, b)) << 32 | std::uint64_t(std::max(a, b));
     odd = b < a;
   }
+
+ private:
+  /// By a vertex and a face at it, the other vertices of the face in its order.
+  static constexpr auto kOthers = [] {
+    std::array<std::array<std::array<std::uint8_t, 2>, 4>, 4> others{};
+    for (std::size_t f = 0; f < 4; ++f)
+      for (std::size_t i = 0; i < 3; ++i)
+        others[std::size_t(kFaceVertices[f][i])][f] = {std::uint8_t(kFaceVertices[f][(i + 1) % 3]),
+                                                       std::uint8_t(kFaceVertices[f][(i + 2) % 3])};
+    return others;
+  }();
 };
 
 struct LinkFault {
@@ -64,11 +82,12 @@ void for_each_face(const TetMesh& mesh, VertexId lowest, std::span<const std::ui
     const TetId t = TetId(value >> 1);
     const auto& v = mesh.tets[t];
     if (value & 1) {
-      f(BucketFace(mesh, lowest, t, int(std::ranges::min_element(v) - v.begin())));
+      const int first = int(std::ranges::min_element(v) - v.begin());
+      f(BucketFace(v, position_in(v, lowest), first, t));
       continue;
     }
-    for (int k = 0; k < 4; ++k)
-      if (v[k] != lowest) f(BucketFace(mesh, lowest, t, k));
+    const int at = position_in(v, lowest);
+    for (int k = 1; k < 4; ++k) f(BucketFace(v, at, (at + k) & 3, t));
   }
 }
 
@@ -99,31 +118,44 @@ LinkFault link_sorted(TetMesh& mesh, VertexId lowest, std::span<const std::uint3
   return {};
 }
 
-/// Links the faces of a small bucket where nothing is out of the ordinary: each is looked for among
-/// the few different ones before it, which is sooner than sorting them.
-/// \return whether that was so; if not, some may be linked all the same
+/// Links the faces of a small bucket where nothing is out of the ordinary: each is looked for in a
+/// table of those before it, which is sooner than sorting them. Whether it is there cannot be
+/// guessed, so nothing branches on that.
+/// \return whether all was ordinary; if not, some may be linked all the same
 bool link_few(TetMesh& mesh, VertexId lowest, std::span<const std::uint32_t> bucket) {
   // A vertex is the lowest of 22 faces on the average, but the first ones are of all faces at them.
   constexpr std::size_t kMost = 128;
-  if (3 * bucket.size() > kMost) return false;
-  std::array<std::uint64_t, kMost> keys;
-  std::array<std::int32_t, kMost> first;
-  std::array<bool, kMost> odd, paired;
-  std::size_t different = 0;
-  bool ordinary = true;
+  constexpr std::uint64_t kEmpty = ~std::uint64_t{0};  // no vertex is so high
+  const std::size_t most = 3 * bucket.size();
+  if (most > kMost) return false;
+  if (most == 0) return true;
+  // Half of the faces are the second of their kind: a quarter of the slots are taken at the end.
+  std::array<std::uint64_t, 2 * kMost> keys;
+  std::array<std::int32_t, 2 * kMost> first;
+  std::array<std::uint8_t, 2 * kMost> seen;  // a bit for each direction
+  const std::size_t slots = std::bit_ceil(2 * most);
+  std::fill_n(keys.begin(), slots, kEmpty);
+  std::fill_n(first.begin(), slots, 0);
+  std::fill_n(seen.begin(), slots, std::uint8_t{0});
+  const int unused_bits = std::countl_zero(slots - 1);
+  std::array<std::array<std::int32_t, 2>, kMost> pairs;
+  std::size_t paired = 0;
+  unsigned twice = 0;
   for_each_face(mesh, lowest, bucket, [&](const BucketFace& face) {
-    std::size_t k = 0;
-    while (k < different && keys[k] != face.key) ++k;
-    if (k < different) {
-      ordinary = ordinary && !paired[k] && odd[k] != face.odd;
-      paired[k] = true;
-      link(mesh, FaceLink::from_code(first[k]), FaceLink::from_code(face.code));
-      return;
-    }
-    keys[k] = face.key, first[k] = face.code, odd[k] = face.odd, paired[k] = false;
-    ++different;
+    std::size_t k = face.key * kScatterStart >> unused_bits;
+    while (keys[k] != face.key && keys[k] != kEmpty) k = (k + 1) & (slots - 1);
+    const bool found = keys[k] != kEmpty;
+    const auto direction = std::uint8_t(1u << unsigned(face.odd));
+    twice |= seen[k] & direction;
+    seen[k] |= direction;
+    keys[k] = face.key;
+    pairs[paired] = {first[k], face.code};
+    paired += found;
+    first[k] = face.code;
   });
-  return ordinary;
+  for (std::size_t i = 0; i < paired; ++i)
+    link(mesh, FaceLink::from_code(pairs[i][0]), FaceLink::from_code(pairs[i][1]));
+  return twice == 0;
 }
 
 /// The tets of a bucket are all over the mesh: each is asked for while those before it are linked.

@@ -28,13 +28,27 @@ void gather_ball(const TetMesh& mesh, VertexId v, TetMarker& marker, Ball& ball)
 }
 
 void small_ball(const TetMesh& mesh, VertexId v, std::vector<TetId>& ball) {
-  ball = {mesh.vertex_tets[v]};
+  // The first ones, mostly all, are in a table; the others are looked for one by one.
+  constexpr std::size_t kTabled = 128;
+  std::array<TetId, 2 * kTabled> table;
+  table.fill(kNone);
+  const auto is_new = [&](TetId t) {
+    std::size_t k = std::size_t(t) % table.size();
+    while (table[k] != t && table[k] != kNone) k = (k + 1) % table.size();
+    if (table[k] == t) return false;
+    if (ball.size() >= kTabled)
+      return std::find(ball.begin() + kTabled, ball.end(), t) == ball.end();
+    table[k] = t;
+    return true;
+  };
+  ball.clear();
+  is_new(mesh.vertex_tets[v]);
+  ball.push_back(mesh.vertex_tets[v]);
   for (std::size_t i = 0; i < ball.size(); ++i)
     for (int f = 0; f < 4; ++f) {
       if (mesh.tets[ball[i]][f] == v) continue;
       const FaceLink next = mesh.across(ball[i], f);
-      if (next.is_tet() && std::ranges::find(ball, next.tet()) == ball.end())
-        ball.push_back(next.tet());
+      if (next.is_tet() && is_new(next.tet())) ball.push_back(next.tet());
     }
 }
 

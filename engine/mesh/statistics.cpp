@@ -160,8 +160,10 @@ struct LengthSum {
     ++result.edges;
     sum += length;
     result.conforming += length >= kShortEdge && length <= kLongEdge;
-    const auto bin = std::upper_bound(kLengthBins.begin(), kLengthBins.end(), length);
-    ++result.histogram[std::size_t(bin - kLengthBins.begin())];
+    // All are compared, since a search would guess wrong at every step.
+    std::size_t bin = 0;
+    for (const double end : kLengthBins) bin += end <= length;
+    ++result.histogram[bin];
     result.shortest = std::min(result.shortest, length);
     if (length > result.longest) {
       result.longest = length;

@@ -17,6 +17,7 @@ class UnionFind {
   }
 
   void join(std::int32_t a, std::int32_t b) {
+    if (parent(a) == parent(b)) return;  // as most are that are joined again
     for (;;) {
       a = root(a), b = root(b);
       if (a == b) return;

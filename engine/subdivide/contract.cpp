@@ -1,6 +1,7 @@
 #include "cavea/subdivide/contract.h"
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -8,11 +9,13 @@
 #include "cavea/base/atomic.h"
 #include "cavea/base/buckets.h"
 #include "cavea/base/cancel.h"
+#include "cavea/base/ids_where.h"
 #include "cavea/base/parallel.h"
 #include "cavea/base/scatter.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/edge_shares.h"
+#include "cavea/mesh/local.h"
 #include "cavea/mesh/renumber.h"
 
 namespace cavea {
@@ -38,7 +41,8 @@ class Contraction {
     choose_kept();
     choose_images();
     if (!is_worthwhile()) return std::nullopt;
-    while (give_way()) throw_if_cancelled(cancel_);
+    for (auto changed = give_way_anywhere(); !changed.empty(); changed = give_way_around(changed))
+      throw_if_cancelled(cancel_);
     // Who asks again until nothing is left to gain is to come to an end.
     if (!is_worthwhile()) return std::nullopt;
     return make();
@@ -46,6 +50,7 @@ class Contraction {
 
  private:
   enum class State : std::uint8_t { kOpen, kStays, kGoes };
+  static constexpr std::size_t kBalls = 64;  ///< a task: each is some twenty tets
 
   /// Inside the volume and not required: what has no tag but those of parts.
   bool may_go(VertexId v) const {
@@ -55,15 +60,29 @@ class Contraction {
 
   /// By vertex, the other ends of its short edges, some of them more than once.
   Buckets short_edges() const {
+    // A bit for each edge of a tet: buckets ask for all that is put into them twice.
+    std::vector<std::uint8_t> is_short(mesh_.tets.size());
+    parallel_for(is_short.size(), [&](std::size_t t) {
+      if (mesh_.tet_alive(TetId(t))) is_short[t] = short_edges_of(TetId(t));
+    });
     return Buckets(mesh_.tets.size(), mesh_.points.size(), [&](std::size_t t, auto&& put) {
-      if (!mesh_.tet_alive(TetId(t))) return;
-      EdgeShare(mesh_, TetId(t)).for_each([&](const auto& e) {
+      for (unsigned left = is_short[t]; left != 0; left &= left - 1) {
+        const auto& e = kEdgeVertices[std::countr_zero(left)];
         const VertexId a = mesh_.tets[t][e[0]], b = mesh_.tets[t][e[1]];
-        if (!may_go(a) || !may_go(b) || is_longer(a, b, limits_.short_edge)) return;
         put(a, std::uint32_t(b));
         put(b, std::uint32_t(a));
-      });
+      }
     });
+  }
+
+  std::uint8_t short_edges_of(TetId t) const {
+    unsigned edges = 0;
+    EdgeShare(mesh_, t).for_each([&](const auto& e) {
+      const VertexId a = mesh_.tets[t][e[0]], b = mesh_.tets[t][e[1]];
+      if (may_go(a) && may_go(b) && !is_longer(a, b, limits_.short_edge))
+        edges |= 1u << (&e - kEdgeVertices);
+    });
+    return std::uint8_t(edges);
   }
 
   bool is_longer(VertexId a, VertexId b, double limit) const {
@@ -93,11 +112,9 @@ class Contraction {
 
   void choose_images() {
     image_.resize(mesh_.points.size());
-    waking_.resize(image_.size());
-    changed_.resize(image_.size());
+    gives_way_.resize(image_.size());
     parallel_for(image_.size(), [&](std::size_t v) {
       image_[v] = state_[v] == State::kGoes ? next_image(VertexId(v), {-1, kNone}) : VertexId(v);
-      changed_[v] = image_[v] != VertexId(v);
     });
   }
 
@@ -139,29 +156,45 @@ class Contraction {
            });
   }
 
-  /// Where a tet at a vertex that has changed is not sound, one of its vertices gives way.
-  /// \return whether any has
-  bool give_way() {
+  /// Where a tet is not sound, one of its vertices gives way. \return those that have
+  std::vector<VertexId> give_way_anywhere() {
     parallel_for(mesh_.tets.size(), [&](std::size_t t) {
-      const Corners& k = mesh_.tets[t];
-      if (!mesh_.tet_alive(TetId(t)) ||
-          !(changed_[k[0]] | changed_[k[1]] | changed_[k[2]] | changed_[k[3]]))
-        return;
-      const Corners to = images(k);
-      if (to == k || is_degenerate(to) || is_sound(to)) return;
-      VertexId first = kNone;
-      for (const VertexId v : k)
-        if (image_[v] != v && (first == kNone || rank_of(v) < rank_of(first))) first = v;
-      atomic_or(waking_[first], std::uint8_t{1});
+      if (mesh_.tet_alive(TetId(t))) look_at(TetId(t));
     });
-    std::swap(changed_, waking_);
-    return any_vertex([&](std::size_t v) {
-      waking_[v] = 0;
-      if (!changed_[v]) return false;
-      const auto at = VertexId(v);
-      image_[v] = next_image(at, {distance2(mesh_.points[v], mesh_.points[image_[v]]), image_[v]});
-      return true;
+    return take_next_images();
+  }
+
+  /// The same of the tets at vertices inside that have changed.
+  std::vector<VertexId> give_way_around(const std::vector<VertexId>& changed) {
+    parallel_for(
+        changed.size(),
+        [&](std::size_t i) {
+          std::vector<TetId> ball;
+          small_ball(mesh_, changed[i], ball);
+          for (const TetId t : ball) look_at(t);
+        },
+        kBalls);
+    return take_next_images();
+  }
+
+  void look_at(TetId t) {
+    const Corners &k = mesh_.tets[t], to = images(k);
+    if (to == k || is_degenerate(to) || is_sound(to)) return;
+    VertexId first = kNone;
+    for (const VertexId v : k)
+      if (image_[v] != v && (first == kNone || rank_of(v) < rank_of(first))) first = v;
+    atomic_or(gives_way_[first], std::uint8_t{1});
+  }
+
+  std::vector<VertexId> take_next_images() {
+    std::vector<VertexId> given =
+        ids_where(image_.size(), [&](VertexId v) { return gives_way_[v] != 0; });
+    parallel_for(given.size(), [&](std::size_t i) {
+      const VertexId v = given[i];
+      gives_way_[v] = 0;
+      image_[v] = next_image(v, {distance2(mesh_.points[v], mesh_.points[image_[v]]), image_[v]});
     });
+    return given;
   }
 
   /// Whether f(v) is true for any vertex; it is called for all.
@@ -219,8 +252,8 @@ class Contraction {
   const std::atomic<bool>* cancel_;
   const Buckets near_;
   std::vector<State> state_;
-  std::vector<VertexId> image_;                 ///< where each vertex goes
-  std::vector<std::uint8_t> changed_, waking_;  ///< those whose images have, and are to change
+  std::vector<VertexId> image_;          ///< where each vertex goes
+  std::vector<std::uint8_t> gives_way_;  ///< those whose images are to change
 };
 
 }  // namespace
