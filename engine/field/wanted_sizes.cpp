@@ -44,13 +44,13 @@ SizeRange wished_range(const TetMesh& mesh, const SizeField& field) {
       });
 }
 
-void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>& curvature_size,
+void set_wanted_sizes(TetMesh& mesh, const std::function<double(VertexId)>& curvature_size,
                       const SizeField& field, const SizeBounds& bounds) {
   const VertexBounds at = bounds_of_vertices(mesh, bounds.hmin, bounds.hmax, bounds.local);
   VertexId senseless = std::numeric_limits<VertexId>::max();  // the smallest one is told
   parallel_for(mesh.points.size(), [&](std::size_t v) {
     double h = at.hmax[v];
-    if (mesh.vertex_tags[v] & tag::kSurface) h = std::min(h, curvature_size(mesh.anchors[v]));
+    if (mesh.vertex_tags[v] & tag::kSurface) h = std::min(h, curvature_size(VertexId(v)));
     if (field) {
       const double wish = field(mesh.points[v]);
       if (!(wish > 0)) atomic_min(senseless, VertexId(v));

@@ -35,11 +35,11 @@ struct SizeRange {
 /// What the user's field asks for at the vertices; what is not positive is passed over.
 SizeRange wished_range(const TetMesh& mesh, const SizeField& field);
 
-/// Sets mesh.sizes (paper, section 4.2): the smaller of `curvature_size` (of surface vertices, by
-/// anchor) and the user's field, then the bounds, then the gradation, also that from required
-/// entities, which bounds do not concern. \pre no holes
-/// \throw InputError when the user's field gives a size that is not a positive number
-void set_wanted_sizes(TetMesh& mesh, const std::function<double(const Anchor&)>& curvature_size,
+/// Sets mesh.sizes (paper, section 4.2): the smaller of `curvature_size` (of surface vertices) and
+/// the user's field, then the bounds, then the gradation, also that from required entities, which
+/// bounds do not concern. \pre no holes \throw InputError when the user's field gives a size that
+/// is not a positive number
+void set_wanted_sizes(TetMesh& mesh, const std::function<double(VertexId)>& curvature_size,
                       const SizeField& field, const SizeBounds& bounds);
 
 /// Lowers mesh.sizes to `size` of surface vertices, by anchor, within the bounds, and around them

@@ -18,26 +18,27 @@ ClosestOnTriangle closest_on_sides(const Vec3& p, const Vec3& a, const Vec3& b, 
 
 // Regions of the triangle as in Ericson, Real-Time Collision Detection, section 5.1.5.
 ClosestOnTriangle closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
+  const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   auto result = [&](double u, double v) {
     return ClosestOnTriangle{u, v, norm2(ap - u * ab - v * ac)};
   };
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return result(0, 0);
-  const Vec3 bp = p - b;
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return result(1, 0);
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) return result(d1 / (d1 - d3), 0);
-  const Vec3 cp = p - c;
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return result(0, 1);
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) return result(0, d2 / (d2 - d6));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double sum = (d4 - d3) + (d5 - d6), w = sum > 0 ? (d4 - d3) / sum : 0;
-    return result(1 - w, w);
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp),
+               d5 = dot(ab, cp), d6 = dot(ac, cp);
+  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  const bool at_a = (d1 <= 0) & (d2 <= 0), at_b = (d3 >= 0) & (d4 <= d3),
+             at_c = (d6 >= 0) & (d5 <= d6);
+  // One question for the most frequent answer: wrong guesses of the processor cost more than terms.
+  const bool inside = (va > 0) & (vb > 0) & (vc > 0) & !(at_a | at_b | at_c);
+  if (!inside) {
+    if (at_a) return result(0, 0);
+    if (at_b) return result(1, 0);
+    if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) return result(d1 / (d1 - d3), 0);
+    if (at_c) return result(0, 1);
+    if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) return result(0, d2 / (d2 - d6));
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+      const double sum = (d4 - d3) + (d5 - d6), w = sum > 0 ? (d4 - d3) / sum : 0;
+      return result(1 - w, w);
+    }
   }
   const double sum = va + vb + vc;
   const double terms = std::abs(d1 * d4) + std::abs(d3 * d2) + std::abs(d5 * d2) +

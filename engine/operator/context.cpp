@@ -4,6 +4,15 @@
 
 namespace cavea {
 
+void gather_around(OperatorContext& c) {
+  c.around.clear();
+  c.vertex_marker.begin(c.mesh.points.size());
+  c.vertex_marker.mark(c.ball.v);
+  for (const TetId t : c.ball.tets)
+    for (const VertexId v : c.mesh.tets[t])
+      if (c.vertex_marker.mark(v)) c.around.push_back({v, t});
+}
+
 void prepare_star(OperatorContext& c) {
   const VertexId v = c.ball.v;
   c.star.clear();

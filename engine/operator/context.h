@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cavea/cavity/cavity.h"
@@ -45,8 +46,10 @@ struct OperatorContext {
   const SurfaceModel& surface;
   Limits limits;
 
-  TetMarker marker;
+  TetMarker marker, vertex_marker;
   Ball ball, second_ball;
+  /// The other vertices of the ball, and a tet that has each: for collapses.
+  std::vector<std::pair<VertexId, TetId>> around;
   Shell shell;
   std::vector<TriangleId> fan;
   std::vector<float> qualities;
@@ -81,6 +84,9 @@ struct OperatorContext {
     return std::min(limits.quality_floor, limits.quality_ratio * before);
   }
 };
+
+/// Makes context.around that of context.ball.
+void gather_around(OperatorContext& context);
 
 /// Makes context.star the faces of context.ball opposite its vertex, ready for qualities.
 void prepare_star(OperatorContext& context);

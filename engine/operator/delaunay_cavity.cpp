@@ -1,31 +1,43 @@
 #include "cavea/operator/delaunay_cavity.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace cavea {
 
 DelaunayCavity::DelaunayCavity(const TetMesh& mesh)
     : mesh_(mesh), beside_(std::size_t(kMostVertices * kMostVertices)) {}
 
-bool DelaunayCavity::is_first(TetId t) const {
-  return std::find(first_.begin(), first_.end(), t) != first_.end();
+void DelaunayCavity::restore() {
+  is_in_.assign(found_.size(), true);
+  order_.resize(found_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  tets_ = found_;
 }
 
-/// Of the tets that are still taken, keeps those reached from the first ones.
+void DelaunayCavity::forget_qualities() {
+  qualities_.assign(found_.size(), {kUnknown, kUnknown, kUnknown, kUnknown});
+}
+
+/// Of the tets that are still in, keeps those reached from the first ones.
 void DelaunayCavity::keep_connected() {
-  connected_ = first_;
-  marked_.clear();
-  for (const TetId t : first_) marked_[t] = 1;
+  connected_.resize(first_);
+  std::iota(connected_.begin(), connected_.end(), 0);
+  std::fill_n(is_in_.begin(), first_, false);
+  // What is reached is taken out, so that it is reached once, and what is not stays out.
   for (std::size_t i = 0; i < connected_.size(); ++i)
-    for (const FaceLink link : mesh_.links[connected_[i]]) {
-      if (!link.is_tet() || !contains(link.tet())) continue;
-      std::int32_t& mark = marked_[link.tet()];
-      if (mark == IdMap::kNew) connected_.push_back(link.tet());
-      mark = 1;
-    }
-  for (TetId t : tets_)
-    if (marked_.at(t) == IdMap::kNew) taken_[t] = kOut;
-  tets_.swap(connected_);
+    for (const std::int32_t next : behind_[std::size_t(connected_[i])])
+      if (is_in(next)) {
+        is_in_[std::size_t(next)] = false;
+        connected_.push_back(next);
+      }
+  std::ranges::fill(is_in_, false);
+  tets_.clear();
+  for (const std::int32_t i : connected_) {
+    is_in_[std::size_t(i)] = true;
+    tets_.push_back(found_[std::size_t(i)]);
+  }
+  order_.swap(connected_);
 }
 
 void DelaunayCavity::number_vertices(const Cavity& cavity) {

@@ -44,31 +44,35 @@ class DelaunayCavity {
   /// the first ones only acceptance will do
   template <class Admit>
   Verdict grow(const Vec3& p, std::span<const TetId> first, Admit&& admit) {
-    first_.assign(first.begin(), first.end());
-    tets_ = first_;
-    taken_.clear();
-    for (const TetId t : tets_) taken_[t] = kIn;
-    for (const TetId t : tets_)
-      if (const Verdict v = admit(t, 4); v != Verdict::kAccept) return v;
-    inner_.clear();
-    for (std::size_t i = 0; i < tets_.size(); ++i) {
-      std::uint8_t inner = 0;
+    found_.assign(first.begin(), first.end());
+    first_ = found_.size();
+    number_.clear();
+    for (std::size_t i = 0; i < first_; ++i) number_[found_[i]] = std::int32_t(i);
+    for (std::size_t i = 0; i < first_; ++i)
+      if (const Verdict v = admit(found_[i], 4); v != Verdict::kAccept) return v;
+    behind_.clear();
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      std::array<std::int32_t, 4> behind{kOut, kOut, kOut, kOut};
       for (int f = 0; f < 4; ++f) {
-        const FaceLink link = mesh_.links[tets_[i]][f];
+        const FaceLink link = mesh_.links[found_[i]][f];
         if (!link.is_tet()) continue;
-        std::int32_t& state = taken_[link.tet()];
-        if (state == IdMap::kNew) {
+        std::int32_t& number = number_[link.tet()];
+        if (number == IdMap::kNew) {
           const Verdict v = ask(p, link, admit);
           if (v != Verdict::kAccept && v != Verdict::kBreaksFeature) return v;
-          state = v == Verdict::kAccept ? kIn : kOut;
+          number = v == Verdict::kAccept ? std::int32_t(found_.size()) - 1 : kOut;
         }
-        inner |= std::uint8_t(state << f);
+        behind[std::size_t(f)] = number;
       }
-      inner_.push_back(inner);
+      behind_.push_back(behind);
     }
-    inner_is_known_ = true;
+    forget_qualities();
+    restore();
     return Verdict::kAccept;
   }
+
+  /// Back to all that was grown, as if nothing had been left out.
+  void restore();
 
   /// Leaves out tets with a face on which the vertex has no tet of at least this quality, once, and
   /// what is then not reached from the first ones any more; the new tets of what is left come into
@@ -82,11 +86,11 @@ class DelaunayCavity {
     cavity.tets.clear();
     bases_.clear();
     hidden_.clear();
-    for (std::size_t i = 0; i < tets_.size(); ++i) {
-      if (sees(p, i, least_quality, is_open, cavity)) continue;
-      if (is_first(tets_[i])) return false;
-      taken_[tets_[i]] = kOut;
-      all = inner_is_known_ = false;
+    for (const std::int32_t i : order_) {
+      if (sees(p, std::size_t(i), least_quality, is_open, cavity)) continue;
+      if (std::size_t(i) < first_) return false;
+      is_in_[std::size_t(i)] = false;
+      all = false;
     }
     if (!all) keep_connected();
     return true;
@@ -99,14 +103,16 @@ class DelaunayCavity {
   void link(Cavity& cavity);
 
   const std::vector<TetId>& tets() const { return tets_; }
-  bool contains(TetId t) const { return taken_.at(t) == kIn; }
+  bool contains(TetId t) const { return is_in(number_.at(t)); }
 
  private:
-  static constexpr std::int32_t kOut = 0, kIn = 1;
+  /// What is not a number of a tet that was found.
+  static constexpr std::int32_t kOut = -2;
+  static constexpr double kUnknown = 2;  ///< no quality
   /// Where the mesh is Delaunay, hardly any cavity has more.
   static constexpr std::int32_t kMostVertices = 64;
 
-  bool is_first(TetId t) const;
+  void forget_qualities();
   void keep_connected();
   void number_vertices(const Cavity& cavity);
 
@@ -117,29 +123,26 @@ class DelaunayCavity {
     if (!in_sphere(p, mesh_.corners(t))) return Verdict::kBreaksFeature;
     const Verdict v = admit(t, link.face());
     if (v != Verdict::kAccept) return v;
-    if (tets_.size() == kMostTets) return Verdict::kTooLarge;
-    tets_.push_back(t);
+    if (found_.size() == kMostTets) return Verdict::kTooLarge;
+    found_.push_back(t);
     return v;
   }
 
-  bool is_inner(std::size_t i, int f) const {
-    if (inner_is_known_) return inner_[i] >> f & 1;
-    const FaceLink link = mesh_.links[tets_[i]][f];
-    return link.is_tet() && contains(link.tet());
-  }
+  bool is_in(std::int32_t number) const { return number >= 0 && is_in_[std::size_t(number)]; }
 
   template <class IsOpen>
   bool sees(const Vec3& p, std::size_t i, double least_quality, IsOpen&& is_open, Cavity& cavity) {
-    const TetId t = tets_[i];
+    const TetId t = found_[i];
     const auto& k = mesh_.tets[t];
     unsigned on_hull = 0;
     for (int f = 0; f < 4; ++f) {
-      if (is_inner(i, f)) continue;
+      if (is_in(behind_[i][std::size_t(f)])) continue;
       const FaceLink link = mesh_.links[t][f];
       if (link.is_triangle() && is_open(link.triangle())) continue;
       const int* fv = kFaceVertices[f];
       const VertexId a = k[fv[0]], b = k[fv[2]], c = k[fv[1]];
-      const double q = tet_quality(mesh_.points[a], mesh_.points[b], mesh_.points[c], p);
+      double& q = qualities_[i][std::size_t(f)];
+      if (q == kUnknown) q = tet_quality(mesh_.points[a], mesh_.points[b], mesh_.points[c], p);
       if (q < least_quality) return false;
       on_hull |= 15u & ~(1u << f);
       bases_.push_back(FaceLink::to_tet(t, f));
@@ -151,13 +154,18 @@ class DelaunayCavity {
   }
 
   const TetMesh& mesh_;
-  std::vector<TetId> first_, tets_, connected_;
-  std::vector<std::uint8_t> inner_;  ///< a bit for each face of tets_: whether it has both sides
-  bool inner_is_known_ = false;      ///< until one is left out
-  std::vector<FaceLink> bases_;      ///< faces on which the new tets stand
-  std::vector<VertexId> hidden_;     ///< on no new tet of the tet that has them
-  IdMap taken_;                      ///< kIn, or kOut if it was left out
-  IdMap marked_;  ///< vertices of the new tets, numbered; tets that are connected
+  std::vector<TetId> found_;  ///< the first ones before all others
+  std::size_t first_ = 0;
+  IdMap number_;                                     ///< in found_; kOut if it was not taken
+  std::vector<std::array<std::int32_t, 4>> behind_;  ///< numbers behind the faces of what was found
+  std::vector<char> is_in_;                          ///< what was found and not left out
+  std::vector<std::int32_t> order_, connected_;      ///< the numbers of these
+  std::vector<TetId> tets_;                          ///< and these themselves
+  /// Of the new tet on each face, once it was asked for: what is left out only adds faces.
+  std::vector<std::array<double, 4>> qualities_;
+  std::vector<FaceLink> bases_;   ///< faces on which the new tets stand
+  std::vector<VertexId> hidden_;  ///< on no new tet of the tet that has them
+  IdMap marked_;                  ///< vertices of the new tets, numbered
   std::int32_t vertices_ = 0;
   std::vector<std::array<std::int32_t, 3>> corners_;  ///< numbers of each new tet's vertices
   std::vector<FaceLink> beside_;  ///< new tet and its face at an edge, by the numbers of its ends

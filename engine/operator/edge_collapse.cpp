@@ -231,16 +231,16 @@ double tolerated_length(const OperatorContext& c, bool quality_gain) {
 
 bool makes_long_edge(const OperatorContext& c, double longest) {
   const Shell& s = c.shell;
-  for (TetId t : c.ball.tets)
-    for (VertexId v : c.mesh.tets[t])
-      if (v != s.q && v != s.p && c.length_exceeds(s.q, v, longest)) return true;
-  return false;
+  return std::ranges::any_of(c.around, [&](const auto& other) {
+    return other.first != s.q && c.length_exceeds(s.q, other.first, longest);
+  });
 }
 
 }  // namespace
 
 Verdict edge_collapse(OperatorContext& c, bool quality_gain, Cavity& cavity) {
   gather_ball(c.mesh, c.shell.p, c.marker, c.ball);
+  gather_around(c);
   return edge_collapse_of_ball(c, quality_gain, cavity);
 }
 

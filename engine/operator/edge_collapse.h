@@ -10,7 +10,8 @@ namespace cavea {
 Verdict edge_collapse(OperatorContext& context, bool quality_gain, Cavity& cavity);
 
 /// The same for a vertex p whose ball is gathered: several q are tried for one ball. \pre
-/// context.ball is that of shell.p; the shell of an edge inside needs only p and q.
+/// context.ball is that of shell.p, context.around what is around; the shell of an edge inside
+/// needs only p and q.
 Verdict edge_collapse_of_ball(OperatorContext& context, bool quality_gain, Cavity& cavity);
 
 }  // namespace cavea

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostShrinks = 20;
 
-/// From flat tets flat ones may come, but no flatter than this share of what was.
+/// Share of a flat shell's worst quality that new tets must have.
 constexpr double kKeptQuality = 0.1;
 
 /// Cosine of the largest angle between a triangle that vanishes and the one at the edge: new
@@ -51,6 +51,13 @@ int SurfaceInsert::sheet_of(TriangleId t) const {
   return -1;
 }
 
+/// Whether all of a triangle's tets are in the hole.
+bool SurfaceInsert::is_on_hole(const Triangle& t) const {
+  return std::ranges::all_of(t.sides, [&](FaceLink side) {
+    return side.is_unset() || (side.is_tet() && hole_.contains(side.tet()));
+  });
+}
+
 /// Whether a triangle on the hole, but not at the edge, is one that may vanish, wherever it is
 /// reached from: with all of its tets in the hole, and the vertex in its circumcircle.
 bool SurfaceInsert::is_candidate(TriangleId id) {
@@ -61,12 +68,7 @@ bool SurfaceInsert::is_candidate(TriangleId id) {
     if (at.triangle == id) return false;
     same_patch |= c_.mesh.triangles[at.triangle].patch == t.patch;
   }
-  return same_patch &&
-         std::ranges::all_of(t.sides,
-                             [&](FaceLink side) {
-                               return side.is_unset() ||
-                                      (side.is_tet() && hole_.contains(side.tet()));
-                             }) &&
+  return same_patch && is_on_hole(t) &&
          in_circle(vertex_.point, c_.point(t.v[0]), c_.point(t.v[1]), c_.point(t.v[2]));
 }
 
@@ -127,10 +129,16 @@ void SurfaceInsert::open_edge() {
   for (const auto& at : c_.shell.triangles) opened_.push_back({at.triangle, sheet++});
 }
 
-void SurfaceInsert::open_triangles(bool wide) {
+/// Of a hole that was made smaller. \return whether there were others before
+bool SurfaceInsert::drop_lost_sides() {
+  const auto is_lost = [&](TriangleId id) { return !is_on_hole(c_.mesh.triangles[id]); };
+  if (std::erase_if(on_hole_, is_lost) == 0) return false;
+  std::erase_if(sides_, [&](const Side& s) { return is_lost(s.triangle); });
+  return true;
+}
+
+void SurfaceInsert::open_sheets() {
   open_edge();
-  if (!wide) return;
-  collect_sides();
   if (on_hole_.empty()) return;
   const std::size_t sheets = opened_.size();
   for (std::size_t s = 0; s < sheets; ++s) open_sheet(int(s), opened_[s].triangle);
@@ -239,22 +247,34 @@ Verdict SurfaceInsert::judge(VertexId id, const Cavity& cavity) const {
                        [&] { return fit_of(c_, cavity.removed_triangles); });
 }
 
+Verdict SurfaceInsert::grow() {
+  const auto& shell = c_.shell.tets;
+  std::size_t checked = 0;  // the shell is always taken, whatever its edges: these stay
+  return hole_.grow(vertex_.point, shell, [&](TetId t, int) {
+    return checked++ < shell.size() ? Verdict::kAccept : admit(t);
+  });
+}
+
+/// From flat tets flat ones may come, but no flatter than a share of what was.
+double SurfaceInsert::least_quality() const {
+  double before = 1;
+  for (const TetId t : c_.shell.tets) before = std::min(before, double(c_.mesh.qualities[t]));
+  return std::max(kFlat, std::min(DelaunayCavity::kLeastQuality, kKeptQuality * before));
+}
+
+/// Of all that was grown.
 Verdict SurfaceInsert::try_cavity(const EdgeOnSurface& edge, VertexId id, bool wide,
                                   Cavity& cavity) {
   cavity.clear();
-  const auto& shell = c_.shell.tets;
-  double before = 1;
-  for (const TetId t : shell) before = std::min(before, double(c_.mesh.qualities[t]));
-  const double least =
-      std::max(kFlat, std::min(DelaunayCavity::kLeastQuality, kKeptQuality * before));
-  std::size_t checked = 0;  // the shell is always taken, whatever its edges: these stay
-  const Verdict grown = hole_.grow(vertex_.point, shell, [&](TetId t, int) {
-    return checked++ < shell.size() ? Verdict::kAccept : admit(t);
-  });
-  if (grown != Verdict::kAccept) return grown;
+  const double least = least_quality();
+  if (wide)
+    collect_sides();
+  else
+    on_hole_.clear();
+  open_sheets();
   bool all = false;
   for (int again = 0; again < kMostShrinks && !all; ++again) {
-    open_triangles(wide);
+    if (again > 0 && drop_lost_sides()) open_sheets();
     if (!hole_.shrink_once(
             vertex_.point, least, [&](TriangleId t) { return is_open(t); }, cavity, all))
       return Verdict::kInverted;
@@ -270,8 +290,12 @@ Verdict SurfaceInsert::operator()(VertexId id, Cavity& cavity) {
   if (const Verdict v = may_split(c_, edge); v != Verdict::kAccept) return v;
   if (!c_.shell.on_surface()) return Verdict::kNotNeeded;
   vertex_ = midpoint(c_.mesh, c_.surface, c_.shell.p, c_.shell.q, edge.triangle, edge.side);
+  if (const Verdict v = grow(); v != Verdict::kAccept) return v;
   Verdict v = try_cavity(edge, id, true, cavity);
-  if (v != Verdict::kAccept) v = try_cavity(edge, id, false, cavity);
+  if (v != Verdict::kAccept) {
+    hole_.restore();
+    v = try_cavity(edge, id, false, cavity);
+  }
   if (v != Verdict::kAccept) return v;
   for (NewTet& t : cavity.tets) t.v[3] = id;
   cavity.removed_tets = hole_.tets();

@@ -30,8 +30,11 @@ class SurfaceInsert {
     int sheet;
   };
 
+  Verdict grow();
+  double least_quality() const;
   Verdict try_cavity(const EdgeOnSurface& edge, VertexId id, bool wide, Cavity& cavity);
   Verdict admit(TetId t) const;
+  bool is_on_hole(const Triangle& t) const;
   bool is_candidate(TriangleId id);
   void collect_sides();
   void open_edge();
@@ -39,7 +42,8 @@ class SurfaceInsert {
   bool may_open(TriangleId id, const Triangle& from, const Vec3& normal) const;
   bool is_inner(const Triangle& t, int k, int sheet) const;
   bool are_discs();
-  void open_triangles(bool wide);
+  bool drop_lost_sides();
+  void open_sheets();
   void add_triangles(const EdgeOnSurface& edge, VertexId id, Cavity& cavity) const;
   bool is_flat() const;
   Verdict judge(VertexId id, const Cavity& cavity) const;

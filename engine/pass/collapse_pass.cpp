@@ -92,12 +92,10 @@ class CollapsePass {
     // The surface only vanishes along itself.
     const Tag wanted = m_.vertex_tags[ball.v] & tag::kSurface;
     spokes_.clear();
-    seen_.begin(m_.points.size());
-    seen_.mark(ball.v);
-    for (const TetId t : ball.tets)
-      for (const VertexId to : m_.tets[t])
-        if (seen_.mark(to) && (m_.vertex_tags[to] & wanted) == wanted && is_short(ball.v, to))
-          spokes_.push_back({s_.context.length(ball.v, to), to, t});
+    gather_around(s_.context);
+    for (const auto& [to, tet] : s_.context.around)
+      if ((m_.vertex_tags[to] & wanted) == wanted && is_short(ball.v, to))
+        spokes_.push_back({s_.context.length(ball.v, to), to, tet});
     std::ranges::sort(spokes_, [](const Spoke& a, const Spoke& b) {
       return std::pair(a.length, a.to) < std::pair(b.length, b.to);
     });
@@ -148,7 +146,6 @@ class CollapsePass {
   TetMesh& m_;
   std::vector<ShortEdge> shortest_;  ///< of each vertex, among the tets that are asked
   std::vector<Spoke> spokes_;
-  TetMarker seen_;
 };
 
 }  // namespace

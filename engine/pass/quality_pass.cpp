@@ -31,6 +31,7 @@ class QualityQueue {
     const std::size_t n = m_.tets.size();
     changed_.assign(n, 0);
     asked_.assign(n, 1);
+    touched_.assign(m_.points.size(), clock_);
     for (std::size_t t = 0; t < n; ++t)
       if (m_.tet_alive(TetId(t)) && (m_.tet_flags[t] & tet_flag::kAskSwap)) enqueue(TetId(t));
   }
@@ -53,6 +54,10 @@ class QualityQueue {
       changed_.resize(std::size_t(t) + 1), asked_.resize(std::size_t(t) + 1);
     changed_[t] = clock_;
     asked_[t] = 0;
+    for (const VertexId v : m_.tets[t]) {
+      if (std::size_t(v) >= touched_.size()) touched_.resize(std::size_t(v) + 1);
+      touched_[v] = clock_;
+    }
     queue_.push_back(t);
   }
 
@@ -61,6 +66,17 @@ class QualityQueue {
     for (TetId t : tets)
       asked = std::max(asked, asked_[t]), changed = std::max(changed, changed_[t]);
     return asked > changed;
+  }
+
+  /// The same without the shell, where a tet beside tells: what changes in the shell of an edge has
+  /// both of its ends.
+  bool surely_asked_before(TetId t, int i, int j) const {
+    const std::uint32_t changed = std::min(touched_[m_.tets[t][i]], touched_[m_.tets[t][j]]);
+    for (int f = 0; f < 4; ++f) {
+      const FaceLink beside = m_.links[t][f];
+      if (f != i && f != j && beside.is_tet() && asked_[beside.tet()] > changed) return true;
+    }
+    return false;
   }
 
   void committed() {
@@ -110,6 +126,7 @@ class QualityQueue {
       if (s_.at_interface(a) && s_.at_interface(b)) s_.block(t);
       return false;
     }
+    if (surely_asked_before(t, i, j)) return false;
     gather_shell(m_, t, i, j, s_.context.shell);
     if (asked_before(s_.context.shell.tets)) return false;
     const Verdict v = edge_swap(s_.context, s_.cavity);
@@ -164,7 +181,8 @@ class QualityQueue {
   TetMesh& m_;
   std::vector<TetId> queue_;
   std::vector<std::uint32_t> changed_, asked_;
-  std::uint32_t clock_ = 2;  ///< 0 and 1 stand for what was before
+  std::vector<std::uint32_t> touched_;  ///< when a tet of the vertex has last changed
+  std::uint32_t clock_ = 2;             ///< 0 and 1 stand for what was before
   std::int64_t done_ = 0;
 };
 

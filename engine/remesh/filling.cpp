@@ -55,12 +55,15 @@ Seeds fill(Job& job) {
   constexpr double kFew = 0.05, kMost = 0.5;  // of all vertices
   TetMesh& mesh = job.mesh;
   std::optional<TetMesh> before;
-  if (job.report.before.quality.mean < kOfNeedles)
+  const bool of_needles = job.report.before.quality.mean < kOfNeedles;
+  if (of_needles)
     job.steps.timed("surface", [&] { before = refine_among_needles(job); });
   else
     job.steps.timed("bulk", [&] { before = refine(job, BulkEdges::kOfSurface); });
   const bool divided = before && mesh.points.size() > before->points.size();
-  const Phase thin = thinning(job.r);
+  Phase thin = thinning(job.r);
+  // What the interfaces of so few parts leave is little, and fine asks for it.
+  if (of_needles) thin.rounds = 1;
   job.steps.timed(thin.name, [&] { run_phase(job, thin); });
   std::int64_t seeds = 0;
   job.steps.timed("seeding", [&] { seeds = seed(job); });

@@ -52,9 +52,17 @@ void IdealSurface::trust_facets(TetMesh& mesh) {
   max_bulge_ = std::min(max_bulge_, kTrusted * r_.hausd);
   if (bulge() <= max_bulge_) return;
   model_->limit_bulge(max_bulge_);
+  known_sizes_.forget();
   meter_.reset();
   bulge_.reset();
   if (loose_) take_model(mesh, looser_, loose_);
+}
+
+std::function<double(VertexId)> IdealSurface::sizes_of(const TetMesh& mesh) {
+  known_sizes_.make_room(mesh.points.size());
+  return [this, &mesh](VertexId v) {
+    return known_sizes_(v, mesh.anchors[v], [this](const Anchor& a) { return model_->size(a); });
+  };
 }
 
 SurfaceDistance IdealSurface::distance_of(const TetMesh& mesh) {

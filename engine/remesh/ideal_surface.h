@@ -1,7 +1,9 @@
 #pragma once
+#include <functional>
 #include <optional>
 
 #include "cavea/mesh/tet_mesh.h"
+#include "cavea/remesh/known_sizes.h"
 #include "cavea/remesh/options.h"
 #include "cavea/remesh/resolved.h"
 #include "cavea/surface/distance.h"
@@ -38,6 +40,9 @@ class IdealSurface {
   /// The one that operators keep to.
   const SurfaceModel& working_model() const { return loose_ ? *loose_ : *model_; }
 
+  /// The size that the model wants at each surface vertex; different ones may be asked for at once.
+  std::function<double(VertexId)> sizes_of(const TetMesh& mesh);
+
   /// Lists what is beyond kMeasuredShare.
   SurfaceDistance distance_of(const TetMesh& mesh);
   double bulge();
@@ -49,6 +54,7 @@ class IdealSurface {
   const ResolvedOptions& r_;
   double max_bulge_, looser_ = 1;
   std::optional<SurfaceModel> model_, loose_;
+  KnownSizes known_sizes_;              ///< of model_
   std::optional<DistanceMeter> meter_;  ///< from model_
   std::optional<double> bulge_;         ///< of model_, once it was asked for
 };

@@ -18,7 +18,7 @@ struct Job {
   /// \param finer the share that is used of sizes that are not given
   Job(Input& input, const SizeField& field, const Options& options, double finer);
 
-  void resize() { sizes.set(mesh, surface.model()); }
+  void resize() { sizes.set(mesh, surface); }
 
   Input& input;  ///< whole before the structure of the mesh changes: see Input::keep()
   Loan loan;

@@ -14,16 +14,14 @@ void Sizing::look_at(const TetMesh& mesh) {
           (r_.hgradreq && !required_sizes(mesh).empty());
 }
 
-void Sizing::set(TetMesh& mesh, const SurfaceModel& surface) {
-  budget_.fit(mesh, [&] {
-    set_wanted_sizes(
-        mesh, [&](const Anchor& a) { return surface.size(a); }, field_, bounds(r_.hmin));
-  });
+void Sizing::set(TetMesh& mesh, IdealSurface& surface) {
+  const auto size = surface.sizes_of(mesh);
+  budget_.fit(mesh, [&] { set_wanted_sizes(mesh, size, field_, bounds(r_.hmin)); });
 }
 
 void Sizing::set_curved(TetMesh& mesh, const SurfaceModel& surface) const {
   set_wanted_sizes(
-      mesh, [&](const Anchor& a) { return surface.curved_size(a); }, {}, bounds(r_.hmin));
+      mesh, [&](VertexId v) { return surface.curved_size(mesh.anchors[v]); }, {}, bounds(r_.hmin));
 }
 
 std::vector<float> Sizing::lower(TetMesh& mesh, const SurfaceModel& surface,

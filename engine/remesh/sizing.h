@@ -5,6 +5,7 @@
 #include "cavea/field/size_regions.h"
 #include "cavea/field/wanted_sizes.h"
 #include "cavea/remesh/budget.h"
+#include "cavea/remesh/ideal_surface.h"
 #include "cavea/remesh/resolved.h"
 #include "cavea/remesh/size_law.h"
 #include "cavea/surface/surface_model.h"
@@ -26,7 +27,7 @@ class Sizing {
   void look_at(const TetMesh& mesh);
 
   /// Sets mesh.sizes to those of all who ask, as far as the budget allows.
-  void set(TetMesh& mesh, const SurfaceModel& surface);
+  void set(TetMesh& mesh, IdealSurface& surface);
   /// To those that follow from the curvature alone.
   void set_curved(TetMesh& mesh, const SurfaceModel& surface) const;
   /// Vertices have moved since their sizes were set, so that set anew all would change a little:

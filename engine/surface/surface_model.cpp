@@ -107,16 +107,18 @@ SurfacePoint SurfaceModel::place(const Vec3& guess, int patch, std::span<const A
   if (start.facet == kNone) return {{}, {}, kEndless};
   WalkResult best = walk(guess, start);
   const double enough2 = square(enough * facet_tolerance_[best.facet]);
+  Vec3 x = patches_[best.facet].at(best.u, best.v);
   // Not every walk finds the nearest place.
-  if (distance2(patches_[best.facet].at(best.u, best.v), guess) > enough2)
+  if (distance2(x, guess) > enough2) {
     for (const Anchor& hint : hints)
       for_each_start(hint, patch, [&](std::int32_t facet) {
         if (facet == start.facet || facet == best.facet) return;
         const WalkResult r = walk(guess, on_facet(guess, facet));
         if (r.distance2 < best.distance2) best = r;
       });
+    x = patches_[best.facet].at(best.u, best.v);
+  }
   Vec3 target = guess;
-  Vec3 x = patches_[best.facet].at(best.u, best.v);
   for (int step = 0; step < kCurvedSteps && distance2(x, guess) > enough2; ++step) {
     // Move the flat projection by the tangential part of the error of the curved point.
     const Vec3 n = normalized(patches_[best.facet].normal(best.u, best.v));

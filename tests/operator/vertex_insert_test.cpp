@@ -1,5 +1,6 @@
 #include "cavea/operator/vertex_insert.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "cavea/base/error.h"
@@ -106,6 +107,45 @@ TEST(VertexInsert, TellsLinksThatTheEditorProves) {
                  c.links[1] = c.links[0];
                }),
                InternalError);
+}
+
+TEST(DelaunayCavity, RestoresAllThatItHasLeftOut) {
+  constexpr std::uint64_t kSeed = 12;
+  // So much that most cavities lose tets.
+  constexpr double kMuch = 0.3;
+  Random random(kSeed);
+  const TetMesh mesh = build(kuhn_cube(4)).mesh;
+  const VertexInsert search(mesh, kEverywhere);
+  DelaunayCavity hole(mesh);
+  const auto closed = [](TriangleId) { return false; };
+  int smaller = 0;
+  for (int k = 0; k < 100; ++k) {
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", point " << k);
+    const Vec3 p{random.unit(), random.unit(), random.unit()};
+    const TetId t = search.locate(VertexId(random.below(int(mesh.points.size()))), p);
+    if (t == kNone) continue;
+    const auto all_may = [](TetId, int) { return Verdict::kAccept; };
+    ASSERT_EQ(hole.grow(p, {&t, 1}, all_may), Verdict::kAccept);
+    const std::vector<TetId> grown = hole.tets();
+    Cavity first, second;
+    bool all = false;
+    const bool kept = hole.shrink_once(p, kMuch, closed, first, all);
+    if (!kept || all) continue;
+    ++smaller;
+    const std::vector<TetId> left = hole.tets();
+    EXPECT_LT(left.size(), grown.size());
+    for (const TetId g : grown)
+      EXPECT_EQ(hole.contains(g), std::ranges::find(left, g) != left.end());
+    hole.restore();
+    EXPECT_EQ(hole.tets(), grown);
+    EXPECT_TRUE(std::ranges::all_of(grown, [&](TetId g) { return hole.contains(g); }));
+    EXPECT_TRUE(hole.shrink_once(p, kMuch, closed, second, all));
+    EXPECT_EQ(hole.tets(), left);
+    ASSERT_EQ(second.tets.size(), first.tets.size());
+    for (std::size_t i = 0; i < first.tets.size(); ++i)
+      EXPECT_EQ(second.tets[i].v, first.tets[i].v);
+  }
+  EXPECT_GT(smaller, 10);
 }
 
 TEST(VertexInsert, MakesGoodTets) {

@@ -4,6 +4,7 @@
 
 #include "cavea/base/error.h"
 #include "cavea/field/mesh_size_field.h"
+#include "cavea/remesh/known_sizes.h"
 #include "remesh/support.h"
 
 namespace cavea::test {
@@ -11,6 +12,27 @@ namespace {
 
 /// Fine near the corner (0, 0, 0), coarse away from it.
 double graded(const Vec3& p) { return 0.04 + 0.16 * norm(p); }
+
+TEST(KnownSizes, AreAskedForAgainWhereTheAnchorMoves) {
+  KnownSizes sizes;
+  int asked = 0;
+  const auto size_at = [&](const Anchor& a) { return ++asked, 1 + double(a.u); };
+  sizes.make_room(2);
+  EXPECT_EQ(sizes(0, {}, size_at), 1);
+  EXPECT_EQ(sizes(1, {3, 0.5f, 0}, size_at), 1.5);
+  EXPECT_EQ(asked, 2);
+  sizes.make_room(3);
+  EXPECT_EQ(sizes(0, {}, size_at), 1);
+  EXPECT_EQ(sizes(1, {3, 0.5f, 0}, size_at), 1.5);
+  EXPECT_EQ(asked, 2);
+  EXPECT_EQ(sizes(1, {3, 0.25f, 0}, size_at), 1.25);
+  EXPECT_EQ(sizes(2, {3, 0.25f, 0}, size_at), 1.25);
+  EXPECT_EQ(asked, 4);
+  sizes.forget();
+  sizes.make_room(3);
+  EXPECT_EQ(sizes(2, {3, 0.25f, 0}, size_at), 1.25);
+  EXPECT_EQ(asked, 5);
+}
 
 TEST(Sizes, FollowTheField) {
   TetMesh mesh = built(kuhn_cube(5));
