@@ -98,13 +98,16 @@ Verdict check_link(OperatorContext& c) {
     const VertexId a = t.v[(ip + 1) % 3], b = t.v[(ip + 2) % 3];
     // Triangle qab could be there, or its place be a face of the interface.
     if (q_frozen && (c.tags(a) & c.tags(b) & tag::kFrozen)) return Verdict::kFrozen;
+    bool comes_up = false;
     for (VertexId r : {a, b}) {
       if (is_third(s, r)) continue;
       // An edge qr could stand in another part, out of sight.
       if (q_frozen && (c.tags(r) & tag::kFrozen)) return Verdict::kFrozen;
-      if (next_to(c.mesh, ball_q, r) && !may_surface(c, r)) return Verdict::kBreaksTopology;
+      if (!next_to(c.mesh, ball_q, r)) continue;
+      if (!may_surface(c, r)) return Verdict::kBreaksTopology;
+      comes_up = true;
     }
-    if (is_face_in_the_way(c, a, b)) return Verdict::kBreaksTopology;
+    if (comes_up && is_face_in_the_way(c, a, b)) return Verdict::kBreaksTopology;
     bool exists = false;
     for_each_triangle(c.mesh, ball_q, [&](TriangleId other) {
       const Triangle& o = c.mesh.triangles[other];
