@@ -14,6 +14,9 @@ enum class Room { kMissing, kLittle, kEnough };
 /// Whether the mesh is one with room, as far as the means tell.
 bool has_room(const MeshSummary& after);
 
+/// Whether another run might find that it has none.
+bool hardly_has_room(const MeshSummary& after);
+
 /// Whether the mesh is so coarse on the whole that it may grow many times to have room.
 bool is_coarse_mesh(const MeshSummary& after);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,7 +34,7 @@ class Trials {
       case Room::kEnough:
         break;
       case Room::kLittle:
-        if (is_input_made_finer()) try_finer(kFinerSizes[0]);
+        if (const std::optional<double> finer = finer_size_of_input()) try_finer(*finer);
         break;
       case Room::kMissing:
         if (is_left_alone(*first) || (first->made_room() && try_mended())) break;
@@ -72,11 +73,16 @@ class Trials {
 
   Room room(const Report& report) const { return room_in(report.after, options_, bool(field_)); }
 
-  /// A little room is found by one run and missed by the next: what the input has decides, but
-  /// where it is much finer, the caller wants other sizes.
-  bool is_input_made_finer() const {
-    return has_the_quality_of_results(best_.report.before.quality, false) &&
-           Run(input_, field_, options_, Effort::kWhereNeeded, kFinerSizes[0]).stands();
+  /// The share of the sizes for which the input was made, if smaller ones were. A little room is
+  /// found by one run and missed by the next: what the input has decides, but where it is much
+  /// finer and the room is more than hardly enough, the caller wants other sizes.
+  std::optional<double> finer_size_of_input() const {
+    if (!has_the_quality_of_results(best_.report.before.quality, false)) return {};
+    for (const double finer : kFinerSizes) {
+      if (Run(input_, field_, options_, Effort::kWhereNeeded, finer).stands()) return finer;
+      if (!hardly_has_room(best_.report.after)) break;
+    }
+    return {};
   }
 
   /// A result that lacks room by little was the best of these trials: others would find another
