@@ -57,8 +57,8 @@ class Judge {
 
   /// To mend a few tets that would do asks far more around them.
   bool is_sound_but_for_chance() const {
-    return none_is_poor(before_) ||
-           (before_.quality.worst >= kSoundQuality && hardly_any_is_poor(job_.mesh));
+    return none_is_poor(before_) || (before_.quality.worst >= kSoundQuality &&
+                                     no_length_is_poor(before_) && hardly_any_is_poor(job_.mesh));
   }
 
   bool is_near() {

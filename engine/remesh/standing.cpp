@@ -137,8 +137,11 @@ std::int64_t count_poor(const TetMesh& mesh) {
 }
 
 bool none_is_poor(const MeshSummary& now) {
-  return now.quality.worst >= kPoorQuality && now.lengths.shortest >= kTooShort &&
-         now.lengths.longest <= kTooLong;
+  return now.quality.worst >= kPoorQuality && no_length_is_poor(now);
+}
+
+bool no_length_is_poor(const MeshSummary& now) {
+  return now.lengths.shortest >= kTooShort && now.lengths.longest <= kTooLong;
 }
 
 bool few_are_poor(const TetMesh& mesh) {

@@ -46,8 +46,9 @@ std::vector<float> own_sizes_within(const TetMesh& mesh, double largest);
 /// How many tets are poor: far from what is wanted, in quality or in length. Needs the sizes.
 std::int64_t count_poor(const TetMesh& mesh);
 
-/// Whether there is none, as the statistics of the mesh tell.
+/// Whether there is none, as the statistics of the mesh tell; or none for its lengths.
 bool none_is_poor(const MeshSummary& now);
+bool no_length_is_poor(const MeshSummary& now);
 
 /// Whether so few are poor that they may be mended one by one.
 bool few_are_poor(const TetMesh& mesh);
