@@ -80,15 +80,7 @@ TEST(Room, IsLookedForOnWhereMendingFindsNone) {
 
 /// A prism whose two long sides meet at 4 degrees.
 MeshData blade() {
-  MeshData data = kuhn_cube(6);
-  std::erase_if(data.tets, [&](const auto& t) {
-    double x_less_y = 0;
-    for (const int v : t) x_less_y += data.vertices[v].x - data.vertices[v].y;
-    return x_less_y < 0;
-  });
-  data.tet_refs.resize(data.tets.size());
-  for (Vec3& p : data.vertices) p = {p.x, p.y * 0.07, p.z / 1.5};
-  return data;
+  return mapped(half_cube(6), [](const Vec3& p) { return Vec3{p.x, p.y * 0.07, p.z / 1.5}; });
 }
 
 // Splits fill the octants of a ball, and a blade, in ways that leave elements no room, and the same

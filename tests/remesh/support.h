@@ -22,6 +22,18 @@ MeshData mapped(MeshData data, Map&& map) {
   return data;
 }
 
+/// The half of kuhn_cube(n) where x is not less than y.
+inline MeshData half_cube(int n) {
+  MeshData data = kuhn_cube(n);
+  std::erase_if(data.tets, [&](const auto& t) {
+    double x_less_y = 0;
+    for (const int v : t) x_less_y += data.vertices[v].x - data.vertices[v].y;
+    return x_less_y < 0;
+  });
+  data.tet_refs.resize(data.tets.size());
+  return data;
+}
+
 /// Two references with a plane between them, which meets the boundary in a closed curve.
 inline MeshData two_halves(int n) {
   MeshData data = kuhn_cube(n);
