@@ -1,6 +1,7 @@
 #include "cavea/remesh/sizing.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -15,7 +16,9 @@ void Sizing::look_at(const TetMesh& mesh) {
 }
 
 void Sizing::set(TetMesh& mesh, IdealSurface& surface) {
-  const auto size = surface.sizes_of(mesh);
+  const auto at_anchor = [&](VertexId v) { return surface.model().size(mesh.anchors[v]); };
+  // What is set once need not be known again.
+  const std::function<double(VertexId)> size = vary_ ? surface.sizes_of(mesh) : at_anchor;
   budget_.fit(mesh, [&] { set_wanted_sizes(mesh, size, field_, bounds(r_.hmin)); });
 }
 
