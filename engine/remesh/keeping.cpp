@@ -4,7 +4,6 @@
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/job.h"
 #include "cavea/remesh/standing.h"
-#include "cavea/remesh/stubborn.h"
 
 namespace cavea {
 namespace {
@@ -19,15 +18,20 @@ class Judge {
     keeping_.stands = keeping_.possible && stands();
     if (!keeping_.stands) return keeping_;
     ask_nothing(job_.mesh);
-    if (effort_ != Effort::kLeave && !is_sound_but_for_chance() && few_are_poor(job_.mesh)) {
-      keeping_.poor = count_poor(job_.mesh);
-      ask_poor(job_.mesh);
-    }
+    if (effort_ != Effort::kLeave && !none_is_poor(before_) && few_are_poor(job_.mesh))
+      ask_poor_ones();
     if (!job_.options.surface) job_.surface.trust_facets(job_.mesh);
     return keeping_;
   }
 
  private:
+  void ask_poor_ones() {
+    const std::int64_t poor = count_poor(job_.mesh);
+    if (poor_by_chance(before_, poor)) return;
+    keeping_.poor = poor;
+    ask_poor(job_.mesh);
+  }
+
   bool is_possible() {
     return !job_.r.freeze.any_operator() && job_.sizes.budget().met(job_.mesh) &&
            !(job_.options.surface && job_.surface.distance_of(job_.mesh).worse().worst > 1);
@@ -53,12 +57,6 @@ class Judge {
   bool is_good() const {
     return is_as_good_as_results(before_, job_.r.uniform(), job_.options.min_conform) &&
            (none_is_poor(before_) || few_are_poor(job_.mesh));
-  }
-
-  /// To mend a few tets that would do asks far more around them.
-  bool is_sound_but_for_chance() const {
-    return none_is_poor(before_) || (before_.quality.worst >= kSoundQuality &&
-                                     no_length_is_poor(before_) && hardly_any_is_poor(job_.mesh));
   }
 
   bool is_near() {

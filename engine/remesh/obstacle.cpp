@@ -217,8 +217,8 @@ bool is_between_walls(OperatorContext& c, TetId t, const Width& width) {
 /// The shortest surface edge of tet t, in wanted lengths, whose ends must both stay, for the
 /// surface bends too much between them or beside them.
 Bridge shortest_bend(OperatorContext& c, TetId t) {
+  Cavity cavity;
   const auto must_stay = [&](int i, int j) {
-    Cavity cavity;
     gather_shell(c.mesh, t, i, j, c.shell);
     if (!c.shell.on_surface()) return false;
     const Verdict v = edge_collapse(c, true, cavity);
@@ -238,12 +238,10 @@ Bridge shortest_bend(OperatorContext& c, TetId t) {
 /// How far the surface triangles at edges of tet t are from the ideal surface, in tolerances.
 double largest_deviation(OperatorContext& c, TetId t) {
   c.fan.clear();
-  for (const VertexId v : c.mesh.tets[t]) {
-    gather_ball(c.mesh, v, c.marker, c.ball);
-    for_each_triangle(c.mesh, c.ball, [&](TriangleId id) {
-      const auto in_t = [&](VertexId w) { return c.mesh.local_index(t, w) < 4; };
-      if (std::ranges::count_if(c.mesh.triangles[id].v, in_t) > 1) c.fan.push_back(id);
-    });
+  for (const auto& e : kEdgeVertices) {
+    gather_shell(c.mesh, t, e[0], e[1], c.shell);
+    for (const Shell::At& at : c.shell.triangles)
+      if (std::ranges::find(c.fan, at.triangle) == c.fan.end()) c.fan.push_back(at.triangle);
   }
   return c.limits.tolerance_share * std::sqrt(fit_of(c, c.fan).deviation2);
 }

@@ -8,6 +8,7 @@
 #include "cavea/field/own_sizes.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/remesh/room.h"
+#include "cavea/remesh/stubborn.h"
 
 namespace cavea {
 namespace {
@@ -42,6 +43,10 @@ bool is_poor(const TetMesh& m, TetId t) {
     const double length2 = distance2(m.points[a], m.points[b]), h0 = m.sizes[a], h1 = m.sizes[b];
     return length_exceeds(length2, h0, h1, kTooLong) || !length_exceeds(length2, h0, h1, kTooShort);
   });
+}
+
+bool no_length_is_poor(const LengthStatistics& now) {
+  return now.shortest >= kTooShort && now.longest <= kTooLong;
 }
 
 /// Of quality below 0.4, which is kPoorQuality: four bins of ten.
@@ -137,19 +142,16 @@ std::int64_t count_poor(const TetMesh& mesh) {
 }
 
 bool none_is_poor(const MeshSummary& now) {
-  return now.quality.worst >= kPoorQuality && no_length_is_poor(now);
+  return now.quality.worst >= kPoorQuality && no_length_is_poor(now.lengths);
 }
 
-bool no_length_is_poor(const MeshSummary& now) {
-  return now.lengths.shortest >= kTooShort && now.lengths.longest <= kTooLong;
+bool poor_by_chance(const MeshSummary& now, std::int64_t poor) {
+  return now.quality.worst >= kSoundQuality && no_length_is_poor(now.lengths) &&
+         double(poor) <= kHardlyAny * double(now.counts.tets);
 }
 
 bool few_are_poor(const TetMesh& mesh) {
   return double(count_poor(mesh)) <= kFew * double(mesh.tets.size());
-}
-
-bool hardly_any_is_poor(const TetMesh& mesh) {
-  return double(count_poor(mesh)) <= kHardlyAny * double(mesh.tets.size());
 }
 
 void ask_poor(TetMesh& mesh) {

@@ -46,15 +46,15 @@ std::vector<float> own_sizes_within(const TetMesh& mesh, double largest);
 /// How many tets are poor: far from what is wanted, in quality or in length. Needs the sizes.
 std::int64_t count_poor(const TetMesh& mesh);
 
-/// Whether there is none, as the statistics of the mesh tell; or none for its lengths.
+/// Whether there is none, as the statistics of the mesh tell.
 bool none_is_poor(const MeshSummary& now);
-bool no_length_is_poor(const MeshSummary& now);
+
+/// Whether there are only as many as results have by chance, and those would do: to mend them asks
+/// far more around them.
+bool poor_by_chance(const MeshSummary& now, std::int64_t poor);
 
 /// Whether so few are poor that they may be mended one by one.
 bool few_are_poor(const TetMesh& mesh);
-
-/// Whether there are only as many as results have by chance.
-bool hardly_any_is_poor(const TetMesh& mesh);
 
 /// Asks the poor tets everything.
 void ask_poor(TetMesh& mesh);
