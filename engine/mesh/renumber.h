@@ -83,4 +83,40 @@ inline Renumbering living_triangles(const TetMesh& mesh) {
   return {mesh.triangles.size(), [&](std::size_t i) { return mesh.triangles[i].alive(); }};
 }
 
+/// Moves what a mesh keeps to its new numbers, and tells all that name it. Ids has the new number
+/// of an old one, kNone for what goes, and keep_in(array). Numbers of cuts stay as they are.
+template <class Ids>
+void renumber(TetMesh& mesh, const Ids& vertices, const Ids& tets, const Ids& triangles) {
+  vertices.keep_in(mesh.points);
+  vertices.keep_in(mesh.sizes);
+  vertices.keep_in(mesh.vertex_tags);
+  vertices.keep_in(mesh.vertex_refs);
+  vertices.keep_in(mesh.vertex_tets);
+  vertices.keep_in(mesh.anchors);
+  tets.keep_in(mesh.tets);
+  tets.keep_in(mesh.links);
+  tets.keep_in(mesh.qualities);
+  tets.keep_in(mesh.tet_refs);
+  tets.keep_in(mesh.tet_flags);
+  triangles.keep_in(mesh.triangles);
+  for (GivenNormal& given : mesh.normals) given.vertex = vertices[given.vertex];
+  std::erase_if(mesh.normals, [](const GivenNormal& given) { return given.vertex == kNone; });
+  const auto renumbered = [&](FaceLink link) {
+    if (link.is_tet()) return FaceLink::to_tet(tets[link.tet()], link.face());
+    if (link.is_triangle()) return FaceLink::to_triangle(triangles[link.triangle()]);
+    return link;
+  };
+  parallel_for(mesh.points.size(),
+               [&](std::size_t v) { mesh.vertex_tets[v] = tets[mesh.vertex_tets[v]]; });
+  parallel_for(mesh.tets.size(), [&](std::size_t t) {
+    for (VertexId& v : mesh.tets[t]) v = vertices[v];
+    for (FaceLink& link : mesh.links[t]) link = renumbered(link);
+  });
+  parallel_for(mesh.triangles.size(), [&](std::size_t i) {
+    Triangle& s = mesh.triangles[i];
+    for (VertexId& v : s.v) v = vertices[v];
+    for (FaceLink& side : s.sides) side = renumbered(side);
+  });
+}
+
 }  // namespace cavea

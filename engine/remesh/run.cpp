@@ -2,6 +2,7 @@
 
 #include "cavea/base/memory.h"
 #include "cavea/base/parallel.h"
+#include "cavea/part/order.h"
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/conclusion.h"
 #include "cavea/remesh/filling.h"
@@ -70,12 +71,19 @@ void Run::analyse() {
   before.lengths = length_statistics(mesh);
 }
 
+/// A mesh of which much is new. Who forbids new vertices may rely on the order of the old ones.
+bool Run::is_to_be_ordered() const {
+  return !job_.keeping.stands && !job_.r.freeze.insert && job_.mesh.tets.size() >= kNearAnyway;
+}
+
 /// All that comes after the mesh is about as fine as wanted.
 void Run::adapt(const std::vector<Phase>& phases) {
   for (const Phase& phase : phases) {
     forget_interfaces(job_.mesh);
     job_.steps.timed(phase.name, [&] { run_phase(job_, phase); });
   }
+  if (is_to_be_ordered())
+    job_.steps.timed("ordering", [&] { sort_along_curve(job_.mesh, &job_.report.part_of_tet); });
   job_.steps.timed("residual", [&] { run_residual_of(job_, phases.back()); });
   mend_poor(job_);
   const SurfaceDistance distance = measure_and_repair(job_);

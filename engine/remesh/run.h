@@ -48,6 +48,7 @@ class Run {
 
  private:
   void analyse();
+  bool is_to_be_ordered() const;
   void adapt(const std::vector<Phase>& phases);
 
   Job job_;

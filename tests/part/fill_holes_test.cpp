@@ -1,22 +1,10 @@
 #include "cavea/mesh/fill_holes.h"
 
 #include "cavea/mesh/compact.h"
-#include "cavea/pass/cycle.h"
 #include "part/support.h"
 
 namespace cavea::test {
 namespace {
-
-/// A mesh after a cycle in place, which has left holes of all kinds.
-TetMesh with_holes(const MeshData& data, std::uint64_t seed) {
-  TetMesh mesh = classified(data);
-  const SurfaceModel surface{mesh, {0.01, 0.03, 0.01, 1}};
-  Random random(seed);
-  for (float& size : mesh.sizes) size = float(random.between(0.2, 0.8));
-  for (std::uint8_t& flags : mesh.tet_flags) flags |= tet_flag::kAskAll;
-  run_cycle(mesh, surface, {});
-  return mesh;
-}
 
 TEST(FillHoles, LeavesTheMeshThatCompactLeaves) {
   bool had_holes = false;

@@ -9,6 +9,7 @@
 #include "cavea/mesh/build.h"
 #include "cavea/mesh/compact.h"
 #include "cavea/part/extract.h"
+#include "cavea/pass/cycle.h"
 #include "cavea/surface/features.h"
 #include "cavea/surface/surface_model.h"
 #include "support/expect.h"
@@ -97,6 +98,17 @@ inline TetMesh classified(const MeshData& data) {
   for (float& size : mesh.sizes) size = float(random.between(0.1, 0.4));
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     mesh.tet_flags[t] |= std::uint8_t(random.below(8) << 1);  // some of the asks
+  return mesh;
+}
+
+/// A mesh after a cycle in place, which has left holes of all kinds.
+inline TetMesh with_holes(const MeshData& data, std::uint64_t seed) {
+  TetMesh mesh = classified(data);
+  const SurfaceModel surface{mesh, {0.01, 0.03, 0.01, 1}};
+  Random random(seed);
+  for (float& size : mesh.sizes) size = float(random.between(0.2, 0.8));
+  for (std::uint8_t& flags : mesh.tet_flags) flags |= tet_flag::kAskAll;
+  run_cycle(mesh, surface, {});
   return mesh;
 }
 
