@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "cavea/mesh/copy.h"
-#include "cavea/part/order.h"
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/bulk.h"
 #include "cavea/remesh/rounds.h"
@@ -35,8 +34,6 @@ std::optional<TetMesh> refine_among_needles(Job& job) {
 std::int64_t seed(Job& job) {
   const std::int64_t seeds =
       seed_interior(job.mesh, job.sizes.law(), job.options.cancel, job.verdicts);
-  // Their numbers are those of blocks and colours, far from what is beside them.
-  if (seeds > 0 && job.mesh.tets.size() >= kNearAnyway) sort_along_curve(job.mesh);
   if (job.sizes.vary() && seeds > 0) job.resize();
   ask_all(job.mesh);
   trust_good_tets(job.mesh);

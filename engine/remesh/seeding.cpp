@@ -7,6 +7,7 @@
 #include "cavea/geometry/metric.h"
 #include "cavea/mesh/compact.h"
 #include "cavea/mesh/statistics.h"
+#include "cavea/part/order.h"
 #include "cavea/part/seed.h"
 
 namespace cavea {
@@ -50,7 +51,11 @@ std::int64_t seed_interior(TetMesh& mesh, const SizeLaw& law, const std::atomic<
   std::int64_t seeds = 0;
   for (int level = coarsest; level >= 0; --level) {
     const VerdictTable result = seed_level(mesh, options, level, coarsest);
-    compact(mesh);
+    // New numbers are those of blocks and colours, far from what is beside them.
+    if (mesh.tets.size() >= kNearAnyway)
+      sort_along_curve(mesh);
+    else
+      compact(mesh);
     seeds += result.accepted(Operator::kVertexInsert);
     verdicts += result;
   }
