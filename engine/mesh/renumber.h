@@ -9,6 +9,13 @@
 
 namespace cavea {
 
+/// Whether an array that keeps so many items holds much more memory than they need.
+template <class T>
+bool leaves_much_unused(const std::vector<T>& all, std::size_t kept) {
+  constexpr std::size_t kSpareShare = 4;
+  return all.capacity() > kept + kept / kSpareShare;
+}
+
 /// New numbers of the items that are kept, in their order.
 struct Renumbering {
   std::vector<std::int32_t> new_id;  ///< kNone for an item that is not kept
@@ -44,9 +51,8 @@ struct Renumbering {
   /// unused: then that is given back.
   template <class T>
   void keep_in(std::vector<T>& all) const {
-    constexpr std::size_t kSpareShare = 4;
     if (count == all.size()) return;
-    if (all.capacity() > count + count / kSpareShare) {
+    if (leaves_much_unused(all, count)) {
       all = kept_of(all);
       return;
     }

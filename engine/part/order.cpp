@@ -25,16 +25,29 @@ class Order {
 
   std::int32_t operator[](std::int32_t old_id) const { return new_id_[old_id]; }
 
+  /// In place, as new memory is slow to touch, unless much would be left unused: then that is given
+  /// back.
   template <class T>
   void keep_in(std::vector<T>& all) const {
+    if (leaves_much_unused(all, kept_.size())) {
+      std::vector<T> moved(kept_.size());
+      gather(all, moved.data());
+      all = std::move(moved);
+      return;
+    }
     // Unset: all threads touch the new memory as they fill it, in place of one that clears it.
     const auto moved = std::make_unique_for_overwrite<T[]>(kept_.size());
-    parallel_for(kept_.size(), [&](std::size_t i) { moved[i] = all[kept_[i]]; });
+    gather(all, moved.get());
     all.resize(kept_.size());
     parallel_for(kept_.size(), [&](std::size_t i) { all[i] = moved[i]; });
   }
 
  private:
+  template <class T>
+  void gather(const std::vector<T>& all, T* to) const {
+    parallel_for(kept_.size(), [&](std::size_t i) { to[i] = all[kept_[i]]; });
+  }
+
   std::vector<std::int32_t> kept_, new_id_;
 };
 
