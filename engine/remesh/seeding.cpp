@@ -51,12 +51,13 @@ std::int64_t seed_interior(TetMesh& mesh, const SizeLaw& law, const std::atomic<
   std::int64_t seeds = 0;
   for (int level = coarsest; level >= 0; --level) {
     const VerdictTable result = seed_level(mesh, options, level, coarsest);
+    const std::int64_t inserted = result.accepted(Operator::kVertexInsert);
     // New numbers are those of blocks and colours, far from what is beside them.
-    if (mesh.tets.size() >= kNearAnyway)
+    if (inserted > 0 && mesh.tets.size() >= kNearAnyway)
       sort_along_curve(mesh);
     else
       compact(mesh);
-    seeds += result.accepted(Operator::kVertexInsert);
+    seeds += inserted;
     verdicts += result;
   }
   return seeds;
