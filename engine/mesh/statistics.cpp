@@ -9,6 +9,7 @@
 
 #include "cavea/base/buckets.h"
 #include "cavea/base/parallel.h"
+#include "cavea/base/wide.h"
 #include "cavea/geometry/dihedral.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/geometry/tet_block.h"
@@ -34,40 +35,42 @@ Vec3 centroid(const std::array<Vec3, 4>& p) { return 0.25 * (p[0] + p[1] + p[2] 
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Bins of angles, equal from 0 to 180 degrees, by cosines.
-class CosineBins {
- public:
-  CosineBins() {
-    for (std::size_t k = 0; k < ends_.size(); ++k)
-      ends_[k] = -std::cos(double(k + 1) * 180 / double(ends_.size()) * kDegree);
-    ends_.back() = kInfinity;
-    std::uint8_t bin = 0;
-    for (std::size_t c = 0; c < first_.size(); ++c) {
-      const double low = (double(c) - kRounding) / kCells - 1;
-      while (ends_[bin] < low) ++bin;
-      first_[c] = bin;
-    }
-  }
-  /// \pre within [-1, 1]
-  std::size_t operator()(double cosine) const {
-    // A search among all ends guesses wrong at every step; a fine grid leaves next to none.
-    std::size_t bin = first_[std::size_t((1 - cosine) * kCells)];
-    while (ends_[bin] <= -cosine) ++bin;
-    return bin;
-  }
+constexpr std::size_t kAngleBins =
+    std::tuple_size_v<decltype(QualityStatistics::dihedral_histogram)>;
 
- private:
-  static constexpr std::size_t kCells = 256;  // from 0 to 1
-  static constexpr double kRounding = 0.5;    // of a cell: what is near an end may be in the next
-  std::array<double, std::tuple_size_v<decltype(QualityStatistics::dihedral_histogram)>> ends_;
-  std::array<std::uint8_t, 2 * kCells + 1> first_;  ///< of each cell's first cosines
-};
+/// The cosines of the angles at which the bins of angles end, but for the last one, which fall.
+const std::array<double, kAngleBins - 1>& bin_ends() {
+  static const auto ends = [] {
+    std::array<double, kAngleBins - 1> cosines;
+    for (std::size_t k = 0; k < cosines.size(); ++k)
+      cosines[k] = std::cos(double(k + 1) * 180 / double(kAngleBins) * kDegree);
+    return cosines;
+  }();
+  return ends;
+}
+
+/// How many of some cosines are of an angle at or beyond an end.
+CAVEA_WIDE std::int64_t count_beyond(std::size_t n, const double* __restrict cosines, double end) {
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) count += cosines[i] <= end;
+  return count;
+}
+
+/// Whether all of some cosines are numbers between the two.
+CAVEA_WIDE bool all_between(std::size_t n, const double* __restrict cosines, double low,
+                            double high) {
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) count += (cosines[i] >= low) & (cosines[i] <= high);
+  return count == std::int64_t(n);
+}
 
 struct QualitySum {
   QualityStatistics result;
   double sum = 0;
   std::int64_t tets = 0;
   double largest_cosine = -kInfinity, smallest_cosine = kInfinity;  ///< of the angles so far
+  std::int64_t angles = 0;                                          ///< counted by their cosines
+  std::array<std::int64_t, kAngleBins - 1> beyond{};  ///< of those, at or beyond each end of a bin
 
   QualitySum() {
     result.worst = result.smallest_dihedral = kInfinity;
@@ -88,11 +91,9 @@ struct QualitySum {
   }
   void add_block(TetBlock& block, std::span<const TetId> ids) {
     const TetBlock::Row& qualities = block.qualities();
+    for (std::size_t i = 0; i < block.size(); ++i) add_quality(ids[i], qualities[i], block, i);
     const std::array<TetBlock::Row, 6>& cosines = block.cosines();
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      add_quality(ids[i], qualities[i], block, i);
-      for (std::size_t e = 0; e < cosines.size(); ++e) add_cosine(cosines[e][i], block, i, e);
-    }
+    for (std::size_t e = 0; e < cosines.size(); ++e) add_angles(cosines[e], block, e);
   }
   void add_quality(TetId t, double quality, const TetBlock& block, std::size_t i) {
     ++tets;
@@ -104,28 +105,47 @@ struct QualitySum {
       result.worst_tet = t;
     }
   }
-  /// The bin of an angle is told by its cosine, unless it is near the ends of the scale or beyond
-  /// all others: then the arc tangent is worth its time.
-  void add_cosine(double cosine, const TetBlock& block, std::size_t i, std::size_t edge) {
+  /// The angles at one edge of each tet. Their bins are told by their cosines, all at once for each
+  /// end of a bin, but for those that are near the ends of the scale or no numbers.
+  void add_angles(const TetBlock::Row& cosines, const TetBlock& block, std::size_t edge) {
     constexpr double kNearEnd = 0.999;
-    if (std::abs(cosine) < kNearEnd && cosine <= largest_cosine && cosine >= smallest_cosine) {
-      ++result.dihedral_histogram[bin_of_cosine(cosine)];
+    const std::size_t n = block.size();
+    angles += std::int64_t(n);
+    for (std::size_t k = 0; k < beyond.size(); ++k)
+      beyond[k] += count_beyond(n, cosines.data(), bin_ends()[k]);
+    // Only for these and for the smallest and largest so far is the arc tangent worth its time.
+    if (all_between(n, cosines.data(), std::max(smallest_cosine, -kNearEnd),
+                    std::min(largest_cosine, kNearEnd)))
       return;
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool is_clear = std::abs(cosines[i]) <= kNearEnd;
+      if (is_clear && cosines[i] <= largest_cosine && cosines[i] >= smallest_cosine) continue;
+      const double angle = angle_at(block[i], edge);
+      add_extreme(angle);
+      if (!is_clear) count_by_angle(cosines[i], angle);
     }
-    const auto& e = kEdgeVertices[edge];
-    const std::array<Vec3, 4> p = block[i];
-    add_angle(dihedral(p[e[0]], p[e[1]], p[e[2]], p[e[3]]));
   }
-  void add_angle(double angle) {
+  static double angle_at(const std::array<Vec3, 4>& p, std::size_t edge) {
+    const auto& e = kEdgeVertices[edge];
+    return dihedral(p[e[0]], p[e[1]], p[e[2]], p[e[3]]);
+  }
+  void add_extreme(double angle) {
     result.smallest_dihedral = std::min(result.smallest_dihedral, angle);
     result.largest_dihedral = std::max(result.largest_dihedral, angle);
     largest_cosine = std::cos(result.smallest_dihedral * kDegree);
     smallest_cosine = std::cos(result.largest_dihedral * kDegree);
-    ++result.dihedral_histogram[equal_bin(angle, 180, result.dihedral_histogram.size())];
   }
-  static std::size_t bin_of_cosine(double cosine) {
-    static const CosineBins bins;
-    return bins(cosine);
+  /// Takes back that an angle was counted by its cosine.
+  void count_by_angle(double cosine, double angle) {
+    --angles;
+    for (std::size_t k = 0; k < beyond.size(); ++k) beyond[k] -= cosine <= bin_ends()[k];
+    ++result.dihedral_histogram[equal_bin(angle, 180, kAngleBins)];
+  }
+  /// The histogram of all angles, those counted by their cosines, too.
+  void finish_histogram() {
+    for (std::size_t k = 0; k < kAngleBins; ++k)
+      result.dihedral_histogram[k] +=
+          (k == 0 ? angles : beyond[k - 1]) - (k + 1 == kAngleBins ? 0 : beyond[k]);
   }
   /// `next` holds tets of larger ids.
   static QualitySum combine(QualitySum a, const QualitySum& next) {
@@ -205,6 +225,7 @@ QualityStatistics quality_statistics(const TetMesh& mesh) {
       [&](std::size_t begin, std::size_t end) {
         QualitySum here;
         here.add_tets(mesh, begin, end);
+        here.finish_histogram();
         return here;
       },
       QualitySum::combine);
