@@ -1,4 +1,6 @@
 #pragma once
+#include <signal.h>
+
 #include <atomic>
 #include <thread>
 
@@ -21,6 +23,8 @@ class Interrupt {
 
  private:
   void watch();
+  /// One of `set`, in which the watcher is woken when the run is over.
+  int wait_for(const sigset_t& set) const;
 
   std::atomic<bool> raised_{false}, finished_{false};
   std::atomic<int> signal_{0};
