@@ -235,11 +235,11 @@ double SurfaceModel::tolerance(const Anchor& anchor) const {
   return smallest;
 }
 
-/// The smallest tolerance of the facets at a vertex.
+/// The smallest tolerance that sizes follow from of the facets at a vertex.
 double SurfaceModel::vertex_tolerance(std::int32_t v) const {
   double smallest = kEndless;
   for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i)
-    smallest = std::min(smallest, facet_tolerance_[vertex_facets_[i]]);
+    smallest = std::min(smallest, size_tolerance(vertex_facets_[i]));
   return smallest;
 }
 

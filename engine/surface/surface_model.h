@@ -121,6 +121,10 @@ class SurfaceModel {
   void set_normals(const std::vector<Vec3>& given);
   void set_normals_at(std::int32_t v, const Vec3& given);
   void set_tolerances();
+  void narrow_at_slits(double share);
+  double empty_angle(const CurveEdge& c, std::int32_t f, std::int32_t g) const;
+  Vec3 apex_over(const CurveEdge& c, std::int32_t f) const;
+  double height_over(const CurveEdge& c, std::int32_t f) const;
   void set_tangents();
   void set_control_points();
   void flatten_folds();
@@ -132,6 +136,9 @@ class SurfaceModel {
   std::vector<double> curvatures() const;
   double averaged(const std::vector<double>& kappas, std::int32_t v) const;
   double hausd_of(std::int32_t reference) const;
+  double size_tolerance(std::int32_t facet) const {
+    return facet_at_slit_[facet] ? facet_hausd_[facet] : facet_tolerance_[facet];
+  }
   double vertex_tolerance(std::int32_t v) const;
   double bulge_between(std::int32_t v, std::int32_t w) const {
     return std::min(vertex_bulge_[v], vertex_bulge_[w]);
@@ -167,6 +174,14 @@ class SurfaceModel {
         if (e != kNone && (curves_[e].v[0] == v || curves_[e].v[1] == v)) f(e);
   }
 
+  /// Calls f(facet, facet) for each two facets at a curve edge.
+  template <class F>
+  void for_each_pair_of_facets(const CurveEdge& c, F&& f) const {
+    for (std::int32_t i = 0; i < c.facet_count; ++i)
+      for (std::int32_t j = 0; j < i; ++j)
+        f(curve_facets_[c.first_facet + i], curve_facets_[c.first_facet + j]);
+  }
+
   /// Steps of one walk; a walk that is longer has lost its way and ends where it is.
   static constexpr int kMaxWalk = 400;
 
@@ -176,6 +191,7 @@ class SurfaceModel {
   std::vector<int> facet_patch_;
   std::vector<char> facet_exterior_;
   std::vector<double> facet_hausd_, facet_tolerance_;
+  std::vector<char> facet_at_slit_;
   /// Facet across the edge opposite corner k; none across ridges and non-manifold edges.
   std::vector<std::array<std::int32_t, 3>> smooth_neighbors_;
   std::vector<std::array<std::int32_t, 3>>

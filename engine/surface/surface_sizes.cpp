@@ -166,7 +166,7 @@ double SurfaceModel::crease_size(std::int32_t f, int k) const {
         std::min(cosine, std::abs(dot(normal_on_edge(f, k, a, t), normal_on_edge(g, l, a, t))));
   const double angle = std::acos(cosine);
   if (angle < kSlightCrease) return kEndless;
-  return kCreaseSag * std::min(facet_tolerance_[f], facet_tolerance_[g]) / angle;
+  return kCreaseSag * std::min(size_tolerance(f), size_tolerance(g)) / angle;
 }
 
 void SurfaceModel::set_crease_sizes() {

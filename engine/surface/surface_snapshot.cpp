@@ -231,6 +231,52 @@ void SurfaceModel::set_tolerances() {
     for (std::int32_t v : facets_[f])
       vertex_bulge_[v] = std::min(vertex_bulge_[v], std::min(bulge * hausd, room));
   }
+  narrow_at_slits(kShareOfGap);
+}
+
+/// Two facets of the exterior boundary with next to no empty space between them meet in an edge,
+/// and so are no two sheets. They stay as flat as they are, each within a share of the way between
+/// the ends of their heights; sizes need not follow from that.
+void SurfaceModel::narrow_at_slits(double share) {
+  // In wider ones, tets hold the vertices beside the edge apart.
+  constexpr double kSlit = 2 * std::numbers::pi / 180;
+  facet_at_slit_.assign(facets_.size(), 0);
+  for (const CurveEdge& c : curves_)
+    for_each_pair_of_facets(c, [&](std::int32_t f, std::int32_t g) {
+      if (!facet_exterior_[f] || !facet_exterior_[g]) return;
+      const double angle = empty_angle(c, f, g);
+      if (angle >= kSlit) return;
+      const double room = share * angle * std::min(height_over(c, f), height_over(c, g));
+      for (const std::int32_t i : {f, g}) {
+        facet_at_slit_[i] = 1;
+        facet_tolerance_[i] = std::min(facet_tolerance_[i], room);
+        for (const std::int32_t v : facets_[i]) vertex_bulge_[v] = std::min(vertex_bulge_[v], room);
+      }
+    });
+}
+
+/// The angle through empty space between two exterior facets at a curve, if they are turned
+/// towards each other; else more than any.
+double SurfaceModel::empty_angle(const CurveEdge& c, std::int32_t f, std::int32_t g) const {
+  const auto normal = [&](std::int32_t i) {
+    const auto [p, q, r] = facet_corners(i);
+    return cross(q - p, r - p);
+  };
+  const Vec3 nf = normal(f), ng = normal(g), at = points_[c.v[0]];
+  if (dot(nf, apex_over(c, g) - at) <= 0 || dot(ng, apex_over(c, f) - at) <= 0) return kEndless;
+  return std::numbers::pi - angle_between(nf, ng);
+}
+
+/// The vertex of a facet that is not on its curve edge.
+Vec3 SurfaceModel::apex_over(const CurveEdge& c, std::int32_t f) const {
+  for (const std::int32_t v : facets_[f])
+    if (v != c.v[0] && v != c.v[1]) return points_[v];
+  return points_[c.v[0]];
+}
+
+double SurfaceModel::height_over(const CurveEdge& c, std::int32_t f) const {
+  const Vec3 edge = points_[c.v[1]] - points_[c.v[0]];
+  return norm(cross(edge, apex_over(c, f) - points_[c.v[0]])) / norm(edge);
 }
 
 /// Curves: at a vertex where the curve goes on, the tangent of the circle through the neighbours;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numbers>
 
 #include "cavea/surface/patch_tree.h"
@@ -381,6 +382,49 @@ TEST(SurfaceModel, ToleranceKeepsSheetsApart) {
       EXPECT_FLOAT_EQ(float(tolerance), float(test::kSettings.tolerance));
     }
   }
+}
+
+/// The unit cube, cut open from above down to its middle at x = 0.5.
+MeshData cube_with_slit(double angle) {
+  MeshData data = kuhn_cube(2);
+  std::map<std::int32_t, std::int32_t> right_of;
+  for (auto& tet : data.tets) {
+    Vec3 middle;
+    for (const std::int32_t v : tet) middle += data.vertices[v] / 4;
+    if (middle.x < 0.5 || middle.z < 0.5) continue;
+    for (auto& v : tet) {
+      if (data.vertices[v].x != 0.5 || data.vertices[v].z != 1) continue;
+      const auto [at, is_new] = right_of.try_emplace(v, std::int32_t(data.vertices.size()));
+      if (is_new) data.vertices.push_back(data.vertices[v]);
+      v = at->second;
+    }
+  }
+  for (const auto& [left, right] : right_of) {
+    data.vertices[left].x -= angle / 4;
+    data.vertices[right].x += angle / 4;
+  }
+  data.vertex_refs.resize(data.vertices.size());
+  return data;
+}
+
+TEST(SurfaceModel, ToleranceKeepsTheSidesOfASlitApart) {
+  constexpr double kAngle = 0.002, kHeight = 0.5;
+  const auto cube = modelled(build(cube_with_slit(kAngle)).mesh);
+  int at_slit = 0;
+  for (const Triangle& t : cube.mesh.triangles) {
+    Vec3 middle{};
+    for (VertexId v : t.v) middle += cube.mesh.points[v] / 3;
+    const Anchor hints[3] = {cube.mesh.anchors[t.v[0]], cube.mesh.anchors[t.v[1]],
+                             cube.mesh.anchors[t.v[2]]};
+    const double tolerance = cube.model.tolerance(cube.model.place(middle, t.patch, hints).anchor);
+    if (std::abs(middle.x - 0.5) < kAngle && middle.z > 0.5 && middle.z < 1) {
+      ++at_slit;
+      EXPECT_LT(tolerance, kAngle * kHeight / 4);
+    } else {
+      EXPECT_FLOAT_EQ(float(tolerance), float(test::kSettings.tolerance));
+    }
+  }
+  EXPECT_EQ(at_slit, 8);
 }
 
 TEST(SurfaceModel, TolerancesFollowReferences) {
