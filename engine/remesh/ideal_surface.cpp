@@ -1,6 +1,8 @@
 #include "cavea/remesh/ideal_surface.h"
 
 #include <algorithm>
+#include <limits>
+#include <vector>
 
 #include "cavea/surface/attach.h"
 #include "cavea/surface/features.h"
@@ -36,10 +38,30 @@ FeatureOptions feature_options(const Options& options, const ResolvedOptions& r)
 }  // namespace
 
 void IdealSurface::take(TetMesh& mesh) {
-  const FeatureOptions features = feature_options(options_, r_);
-  if (!options_.surface) classify_features(mesh, features);
+  if (!options_.surface) classify_features(mesh, features());
   take_model(mesh, 1, model_);
-  if (options_.surface) attach_to(mesh, *model_, features, r_.hausd);
+  if (options_.surface) attach(mesh);
+}
+
+/// A mesh that was made after another model of the same surface may have no edges along creases of
+/// this one. Then they are none of this model either: its patches would end where no edge of the
+/// mesh can be.
+void IdealSurface::attach(TetMesh& mesh) {
+  constexpr double kMostOff = 1e-3;  // of the area
+  const std::vector<Triangle> triangles = mesh.triangles;
+  const std::vector<Tag> vertex_tags = mesh.vertex_tags;
+  if (attach_to(mesh, *model_, features(), r_.hausd) <= kMostOff) return;
+  mesh.triangles = triangles;
+  mesh.vertex_tags = vertex_tags;
+  creases_ = false;
+  take_model(mesh, 1, model_);
+  attach_to(mesh, *model_, features(), r_.hausd);
+}
+
+FeatureOptions IdealSurface::features() const {
+  FeatureOptions o = feature_options(options_, r_);
+  if (!creases_) o.crease = std::numeric_limits<double>::infinity();
+  return o;
 }
 
 void IdealSurface::loosen(TetMesh& mesh, double scale) {
@@ -92,7 +114,7 @@ void IdealSurface::take_model(TetMesh& mesh, double looser,
     return;
   }
   TetMesh truth = *options_.surface;
-  classify_features(truth, feature_options(options_, r_));
+  classify_features(truth, features());
   model.emplace(truth, settings);
 }
 

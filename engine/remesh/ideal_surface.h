@@ -7,6 +7,7 @@
 #include "cavea/remesh/options.h"
 #include "cavea/remesh/resolved.h"
 #include "cavea/surface/distance.h"
+#include "cavea/surface/features.h"
 #include "cavea/surface/surface_model.h"
 
 namespace cavea {
@@ -48,11 +49,14 @@ class IdealSurface {
   double bulge();
 
  private:
+  void attach(TetMesh& mesh);
+  FeatureOptions features() const;
   void take_model(TetMesh& mesh, double looser, std::optional<SurfaceModel>& model) const;
 
   const Options& options_;
   const ResolvedOptions& r_;
   double max_bulge_, looser_ = 1;
+  bool creases_ = true;  ///< whether folds that sag too much are ridges, whatever their angle
   std::optional<SurfaceModel> model_, loose_;
   KnownSizes known_sizes_;              ///< of model_
   std::optional<DistanceMeter> meter_;  ///< from model_

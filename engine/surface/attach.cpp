@@ -1,6 +1,7 @@
 #include "cavea/surface/attach.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -26,16 +27,21 @@ class Attachment {
   /// Whether a feature curve of the model runs along an edge.
   bool on_curve(VertexId a, VertexId b) const {
     // An earlier result has its ridges within the tolerance; a chord as long as sizes allow sags by
-    // another one.
-    constexpr double kNear = 2, kAlong = 0.8;
-    const Vec3 p = mesh_.points[a], q = mesh_.points[b];
-    const auto near = nearest_curve((p + q) / 2, kNear * tolerance_);
+    // another one. Where that result was made with a larger tolerance, its edges are longer.
+    constexpr double kNear = 2, kShareOfEdge = 0.25, kAlong = 0.8;
+    const Vec3 p = mesh_.points[a], q = mesh_.points[b], middle = (p + q) / 2;
+    const double reach = std::max(kNear * tolerance_, kShareOfEdge * distance(p, q));
+    // Curves bulge from their chords.
+    const auto near = nearest_curve(middle, reach + model_.max_bulge());
     if (!near) return false;
+    const Anchor hints[1] = {{SurfaceModel::curve_anchor(near->edge), float(near->t), 0}};
+    if (model_.place_on_curve(middle, hints).distance2 > reach * reach) return false;
     const auto [s, t] = model_.curve_ends(near->edge);
     return std::abs(dot(t - s, q - p)) >= kAlong * norm(t - s) * norm(q - p);
   }
 
-  void run(int patches) {
+  /// \return the share of the area that is off its patch
+  double run(int patches) {
     take_patches(patches);
     std::vector<std::int32_t> patch(mesh_.points.size(), kNone);
     for (const Triangle& t : mesh_.triangles)
@@ -45,6 +51,7 @@ class Attachment {
       mesh_.anchors[v] = {};
       if (patch[v] != kNone) anchor(VertexId(v), patch[v]);
     });
+    return share_off_patches();
   }
 
  private:
@@ -93,19 +100,64 @@ class Attachment {
     return best;
   }
 
+  Vec3 centroid(const Triangle& t) const {
+    return (mesh_.points[t.v[0]] + mesh_.points[t.v[1]] + mesh_.points[t.v[2]]) / 3;
+  }
+  Vec3 normal(const Triangle& t) const {
+    const Vec3 a = mesh_.points[t.v[0]], b = mesh_.points[t.v[1]], c = mesh_.points[t.v[2]];
+    return cross(b - a, c - a);
+  }
+  double area(const Triangle& t) const { return norm(normal(t)) / 2; }
+
+  Anchor facet_under(const Triangle& t) const {
+    const Vec3 n = normal(t);
+    return nearest_facet(centroid(t), [&](std::int32_t f) {
+      const auto [x, y, z] = model_.facet_corners(f);
+      return dot(cross(y - x, z - x), n) > 0;  // not the other side of a thin wall
+    });
+  }
+
+  double distance_to(const Vec3& p, std::int32_t facet) const {
+    const auto [a, b, c] = model_.facet_corners(facet);
+    return std::sqrt(closest_on_triangle(p, a, b, c).distance2);
+  }
+
+  /// A triangle beside a ridge may lie above the patch beyond as well; what is a good deal farther
+  /// from its own patch than from another belongs to a piece that has no ridge where the model has.
+  bool is_off_patch(const Triangle& t) const {
+    constexpr double kFarther = 2;  // tolerances
+    const Anchor near = facet_under(t);
+    if (near.facet == kNone || model_.patch_number(near.facet) == t.patch) return false;
+    const Vec3 p = centroid(t);
+    const Anchor own =
+        nearest_facet(p, [&](std::int32_t f) { return model_.patch_number(f) == t.patch; });
+    return own.facet == kNone || distance_to(p, own.facet) > distance_to(p, near.facet) +
+                                                                 kFarther * tolerance_ +
+                                                                 model_.max_bulge();
+  }
+
+  double share_off_patches() const {
+    std::vector<char> off(mesh_.triangles.size());
+    parallel_for(off.size(), [&](std::size_t t) {
+      off[t] = mesh_.triangles[t].alive() && is_off_patch(mesh_.triangles[t]);
+    });
+    double all = 0, sum = 0;
+    for (std::size_t t = 0; t < off.size(); ++t) {
+      if (!mesh_.triangles[t].alive()) continue;
+      all += area(mesh_.triangles[t]);
+      if (off[t]) sum += area(mesh_.triangles[t]);
+    }
+    return all > 0 ? sum / all : 0;
+  }
+
   /// The patch of the model that most of each piece of the surface lies on.
   void take_patches(int pieces) {
     std::vector<std::map<int, double>> votes(static_cast<std::size_t>(pieces));
     for (const Triangle& t : mesh_.triangles) {
       if (!t.alive()) continue;
-      const Vec3 a = mesh_.points[t.v[0]], b = mesh_.points[t.v[1]], c = mesh_.points[t.v[2]];
-      const Vec3 normal = cross(b - a, c - a);
-      const Anchor near = nearest_facet((a + b + c) / 3, [&](std::int32_t f) {
-        const auto [x, y, z] = model_.facet_corners(f);
-        return dot(cross(y - x, z - x), normal) > 0;  // not the other side of a thin wall
-      });
+      const Anchor near = facet_under(t);
       if (near.facet != kNone)
-        votes[std::size_t(t.patch)][model_.patch_number(near.facet)] += norm(normal);
+        votes[std::size_t(t.patch)][model_.patch_number(near.facet)] += area(t);
     }
     for (Triangle& t : mesh_.triangles) {
       if (!t.alive()) continue;
@@ -145,13 +197,13 @@ class Attachment {
 
 }  // namespace
 
-void attach_to(TetMesh& mesh, const SurfaceModel& model, const FeatureOptions& options,
-               double tolerance) {
+double attach_to(TetMesh& mesh, const SurfaceModel& model, const FeatureOptions& options,
+                 double tolerance) {
   Attachment attachment(mesh, model, tolerance);
   FeatureOptions along = options;
   along.crease = std::numeric_limits<double>::infinity();
   along.may_be_ridge = [&](VertexId a, VertexId b) { return attachment.on_curve(a, b); };
-  attachment.run(classify_features(mesh, along));
+  return attachment.run(classify_features(mesh, along));
 }
 
 }  // namespace cavea

@@ -10,7 +10,9 @@ namespace cavea {
 /// the model, by majority of area over each piece between feature edges; vertices get their anchors
 /// on it, and those that are not on the ideal surface kOffSurface. Corners and required vertices
 /// stay where they are. \param tolerance hausd
-void attach_to(TetMesh& mesh, const SurfaceModel& model, const FeatureOptions& options,
-               double tolerance);
+/// \return the share of the area that lies farther from its own patch than from another, by more
+/// than follows from the tolerance: the model has a ridge there and the mesh has none.
+double attach_to(TetMesh& mesh, const SurfaceModel& model, const FeatureOptions& options,
+                 double tolerance);
 
 }  // namespace cavea

@@ -291,6 +291,8 @@ void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars,
   for (std::size_t v = 0; v < stars.size(); ++v) {
     const FeatureStar& star = stars[v];
     if (star.fans == 0) continue;
+    // What the mesh carries of its edges' kinds may hold no longer.
+    m.vertex_tags[v] &= Tag(~(tag::kOnCurve | tag::kPinched));
     m.vertex_tags[v] |= Tag(tag::kSurface | (star.all_kinds & (tag::kOnCurve | tag::kPinched)));
     if (star.fans > 1) m.vertex_tags[v] |= tag::kPinched;
     const bool is_tip = star.degree == 0 && sharpness.detect && tips.has(VertexId(v));

@@ -60,6 +60,8 @@ class SurfaceModel {
   /// the exterior boundary is so near that both could meet.
   double tolerance(const Anchor& anchor) const;
   /// hausd at a facet, by its reference.
+  /// How far control points may be from the facets and chords at most.
+  double max_bulge() const { return settings_.max_bulge; }
   double hausd(std::int32_t facet) const { return facet_hausd_[std::size_t(facet)]; }
 
   /// Size wanted at an anchor for the sake of the curvature (paper, section 4.2) and of thin walls,
