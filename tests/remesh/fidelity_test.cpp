@@ -132,6 +132,43 @@ TEST(Fidelity, LoopOnTheFirstSurfaceDoesNotDrift) {
   }
 }
 
+Options on(const TetMesh& truth, double hausd, bool faceted) {
+  Options options;
+  options.hausd = hausd;
+  options.faceted = faceted;
+  options.surface = &truth;
+  return options;
+}
+
+void expect_on_surface(const TetMesh& mesh, const Report& report) {
+  expect_sound(mesh);
+  EXPECT_LE(report.surface_distance, report.hausd);
+  EXPECT_TRUE(find_crossings(mesh).empty());
+}
+
+// Curves of a coarse truth bulge by more than two tolerances from its edges.
+TEST(Fidelity, ResultStandsOnItsOwnTruth) {
+  const TetMesh truth = built(cylinder(2));
+  TetMesh mesh = truth;
+  remesh(mesh, {}, on(truth, 0.01, false));
+  const TetMesh first = mesh;
+  expect_on_surface(mesh, remesh(mesh, {}, on(truth, 0.01, false)));
+  EXPECT_EQ(mesh.tets, first.tets);
+}
+
+// A smooth result has no edges along the creases of the facets, nor a coarse one along all of them.
+TEST(Fidelity, ResultMayBeGivenAnotherModelOfItsTruth) {
+  const TetMesh truth = built(cylinder(2));
+  for (const bool was_faceted : {false, true})
+    for (const double was_within : {0.01, 0.05}) {
+      TetMesh mesh = truth;
+      const Report first = remesh(mesh, {}, on(truth, was_within, was_faceted));
+      const Report second = remesh(mesh, {}, on(truth, 0.01, true));
+      expect_on_surface(mesh, second);
+      EXPECT_LT(second.after.counts.tets, 20 * first.after.counts.tets);
+    }
+}
+
 TEST(Fidelity, BulgeStaysWithinItsBound) {
   for (const double most : {0.0, 0.01, 0.05}) {
     TetMesh mesh = built(ball(4));
