@@ -173,12 +173,15 @@ class Attachment {
     Tag& tags = mesh_.vertex_tags[v];
     const double reach = std::numeric_limits<double>::infinity();
     Anchor& anchor = mesh_.anchors[v];
-    if ((tags & tag::kOnCurve) && !(tags & tag::kCorner)) {
-      if (const auto near = nearest_curve(p, reach))
-        anchor = {SurfaceModel::curve_anchor(near->edge), float(near->t), 0};
-    } else if (const auto corner = model_.corner_near(p, kOnSurface * tolerance_)) {
+    const bool is_corner = tags & tag::kCorner;
+    const auto corner = is_corner || !(tags & tag::kOnCurve)
+                            ? model_.corner_near(p, kOnSurface * tolerance_)
+                            : std::nullopt;
+    if (corner)
       anchor = *corner;
-    }
+    else if (tags & tag::kOnCurve)  // where the model's curve goes on at a corner, too
+      if (const auto near = nearest_curve(p, is_corner ? tolerance_ : reach))
+        anchor = {SurfaceModel::curve_anchor(near->edge), float(near->t), 0};
     if (anchor.facet == kNone)
       anchor = nearest_facet(p, [&](std::int32_t f) { return model_.patch_number(f) == patch; });
     if (tags & (tag::kCorner | tag::kRequired)) return;
