@@ -4,10 +4,12 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/box_tree.h"
 #include "cavea/geometry/closest.h"
+#include "cavea/surface/edges.h"
 
 namespace cavea {
 namespace {
@@ -43,6 +45,7 @@ class Attachment {
   /// \return the share of the area that is off its patch
   double run(int patches) {
     take_patches(patches);
+    find_going_on();
     std::vector<std::int32_t> patch(mesh_.points.size(), kNone);
     for (const Triangle& t : mesh_.triangles)
       if (t.alive())
@@ -168,6 +171,17 @@ class Attachment {
     }
   }
 
+  /// Where just two feature edges meet, a curve goes on, even if the mesh calls it a corner.
+  void find_going_on() {
+    std::vector<int> edges(mesh_.points.size(), 0);
+    for_each_edge(sorted_edge_sides(mesh_.triangles), [&](const EdgeSide* begin, const EdgeSide*) {
+      if (mesh_.triangles[begin->triangle].edge_tag[begin->k] & tag::kOnCurve)
+        ++edges[begin->a], ++edges[begin->b];
+    });
+    curve_goes_on_.resize(edges.size());
+    for (std::size_t v = 0; v < edges.size(); ++v) curve_goes_on_[v] = edges[v] == 2;
+  }
+
   void anchor(VertexId v, int patch) {
     const Vec3 p = mesh_.points[v];
     Tag& tags = mesh_.vertex_tags[v];
@@ -179,7 +193,7 @@ class Attachment {
                             : std::nullopt;
     if (corner)
       anchor = *corner;
-    else if (tags & tag::kOnCurve)  // where the model's curve goes on at a corner, too
+    else if ((tags & tag::kOnCurve) && (!is_corner || curve_goes_on_[std::size_t(v)]))
       if (const auto near = nearest_curve(p, is_corner ? tolerance_ : reach))
         anchor = {SurfaceModel::curve_anchor(near->edge), float(near->t), 0};
     if (anchor.facet == kNone)
@@ -196,6 +210,7 @@ class Attachment {
   const SurfaceModel& model_;
   const double tolerance_;
   BoxTree facets_, curves_;
+  std::vector<char> curve_goes_on_;  ///< by vertex
 };
 
 }  // namespace
