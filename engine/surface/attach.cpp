@@ -44,6 +44,7 @@ class Attachment {
 
   /// \return the share of the area that is off its patch
   double run(int patches) {
+    find_facets_under();
     take_patches(patches);
     find_going_on();
     std::vector<std::int32_t> patch(mesh_.points.size(), kNone);
@@ -112,11 +113,16 @@ class Attachment {
   }
   double area(const Triangle& t) const { return norm(normal(t)) / 2; }
 
-  Anchor facet_under(const Triangle& t) const {
-    const Vec3 n = normal(t);
-    return nearest_facet(centroid(t), [&](std::int32_t f) {
-      const auto [x, y, z] = model_.facet_corners(f);
-      return dot(cross(y - x, z - x), n) > 0;  // not the other side of a thin wall
+  void find_facets_under() {
+    under_.assign(mesh_.triangles.size(), kNone);
+    parallel_for(under_.size(), [&](std::size_t i) {
+      const Triangle& t = mesh_.triangles[i];
+      if (!t.alive()) return;
+      const Vec3 n = normal(t);
+      under_[i] = nearest_facet(centroid(t), [&](std::int32_t f) {
+                    const auto [x, y, z] = model_.facet_corners(f);
+                    return dot(cross(y - x, z - x), n) > 0;  // not the other side of a thin wall
+                  }).facet;
     });
   }
 
@@ -127,23 +133,22 @@ class Attachment {
 
   /// A triangle beside a ridge may lie above the patch beyond as well; what is a good deal farther
   /// from its own patch than from another belongs to a piece that has no ridge where the model has.
-  bool is_off_patch(const Triangle& t) const {
+  bool is_off_patch(std::size_t i) const {
     constexpr double kFarther = 2;  // tolerances
-    const Anchor near = facet_under(t);
-    if (near.facet == kNone || model_.patch_number(near.facet) == t.patch) return false;
+    const Triangle& t = mesh_.triangles[i];
+    const std::int32_t under = under_[i];
+    if (under == kNone || model_.patch_number(under) == t.patch) return false;
     const Vec3 p = centroid(t);
     const Anchor own =
         nearest_facet(p, [&](std::int32_t f) { return model_.patch_number(f) == t.patch; });
-    return own.facet == kNone || distance_to(p, own.facet) > distance_to(p, near.facet) +
+    return own.facet == kNone || distance_to(p, own.facet) > distance_to(p, under) +
                                                                  kFarther * tolerance_ +
                                                                  model_.max_bulge();
   }
 
   double share_off_patches() const {
     std::vector<char> off(mesh_.triangles.size());
-    parallel_for(off.size(), [&](std::size_t t) {
-      off[t] = mesh_.triangles[t].alive() && is_off_patch(mesh_.triangles[t]);
-    });
+    parallel_for(off.size(), [&](std::size_t t) { off[t] = is_off_patch(t); });
     double all = 0, sum = 0;
     for (std::size_t t = 0; t < off.size(); ++t) {
       if (!mesh_.triangles[t].alive()) continue;
@@ -156,11 +161,10 @@ class Attachment {
   /// The patch of the model that most of each piece of the surface lies on.
   void take_patches(int pieces) {
     std::vector<std::map<int, double>> votes(static_cast<std::size_t>(pieces));
-    for (const Triangle& t : mesh_.triangles) {
-      if (!t.alive()) continue;
-      const Anchor near = facet_under(t);
-      if (near.facet != kNone)
-        votes[std::size_t(t.patch)][model_.patch_number(near.facet)] += area(t);
+    for (std::size_t i = 0; i < under_.size(); ++i) {
+      if (under_[i] == kNone) continue;
+      const Triangle& t = mesh_.triangles[i];
+      votes[std::size_t(t.patch)][model_.patch_number(under_[i])] += area(t);
     }
     for (Triangle& t : mesh_.triangles) {
       if (!t.alive()) continue;
@@ -210,6 +214,7 @@ class Attachment {
   const SurfaceModel& model_;
   const double tolerance_;
   BoxTree facets_, curves_;
+  std::vector<std::int32_t> under_;  ///< by triangle, the facet nearest to it that faces its way
   std::vector<char> curve_goes_on_;  ///< by vertex
 };
 

@@ -59,9 +59,9 @@ class SurfaceModel {
   /// How far the surface may be from the model at an anchor: hausd, or less where another sheet of
   /// the exterior boundary is so near that both could meet.
   double tolerance(const Anchor& anchor) const;
-  /// hausd at a facet, by its reference.
   /// How far control points may be from the facets and chords at most.
   double max_bulge() const { return settings_.max_bulge; }
+  /// hausd at a facet, by its reference.
   double hausd(std::int32_t facet) const { return facet_hausd_[std::size_t(facet)]; }
 
   /// Size wanted at an anchor for the sake of the curvature (paper, section 4.2) and of thin walls,
@@ -193,7 +193,7 @@ class SurfaceModel {
   std::vector<int> facet_patch_;
   std::vector<char> facet_exterior_;
   std::vector<double> facet_hausd_, facet_tolerance_;
-  std::vector<char> facet_at_slit_;
+  std::vector<char> facet_at_slit_;  ///< beside next to no empty space (narrow_at_slits())
   /// Facet across the edge opposite corner k; none across ridges and non-manifold edges.
   std::vector<std::array<std::int32_t, 3>> smooth_neighbors_;
   std::vector<std::array<std::int32_t, 3>>

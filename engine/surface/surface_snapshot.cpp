@@ -238,7 +238,8 @@ void SurfaceModel::set_tolerances() {
 /// and so are no two sheets. They stay as flat as they are, each within a share of the way between
 /// the ends of their heights; sizes need not follow from that.
 void SurfaceModel::narrow_at_slits(double share) {
-  // In wider ones, tets hold the vertices beside the edge apart.
+  // None that is wider was seen to close; and where round bodies touch, facets meet at a few
+  // degrees.
   constexpr double kSlit = 2 * std::numbers::pi / 180;
   facet_at_slit_.assign(facets_.size(), 0);
   for (const CurveEdge& c : curves_)
