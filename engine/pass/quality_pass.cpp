@@ -37,18 +37,28 @@ class QualityQueue {
   }
 
   std::int64_t run() {
-    for (std::size_t i = 0; i < queue_.size(); ++i) {
-      const TetId t = queue_[i];
+    ask_for_swaps();
+    // One by one: the swaps that each makes possible come first.
+    for (std::size_t i = 0; i < bad_.size(); ++i) {
+      const auto [t, when] = bad_[i];
+      if (m_.tet_alive(t) && asked_[t] == when) ask_last_resorts(t);
+      ask_for_swaps();
+    }
+    return done_;
+  }
+
+ private:
+  void ask_for_swaps() {
+    for (; next_ < queue_.size(); ++next_) {
+      const TetId t = queue_[next_];
       if (!m_.tet_alive(t) || !(m_.tet_flags[t] & tet_flag::kAskSwap)) continue;
       // Better tets keep their flag for a phase that asks them too.
       if (m_.qualities[t] >= s_.settings.swap_ceiling) continue;
       m_.tet_flags[t] &= std::uint8_t(~tet_flag::kAskSwap);
       ask(t);
     }
-    return done_;
   }
 
- private:
   void enqueue(TetId t) {
     if (std::size_t(t) >= changed_.size())
       changed_.resize(std::size_t(t) + 1), asked_.resize(std::size_t(t) + 1);
@@ -91,16 +101,22 @@ class QualityQueue {
     ++clock_;
     if (s_.settings.swap && swap(t, quality)) return;
     asked_[t] = clock_;
-    const bool bad = quality < s_.settings.repair_below;
-    if (bad && !s_.last_resorts) {
+    if (is_bad(t) && !s_.last_resorts)
       m_.tet_flags[t] |= tet_flag::kAskSwap;
-      return;
-    }
-    if (bad && s_.settings.collapse && collapse_for_quality(t)) return;
-    const bool poor = quality < s_.settings.reconnect_below;
-    if (poor && s_.settings.swap && reconnect_for_quality(t)) return;
-    if (bad && s_.settings.insert && star_for_quality(t)) return;
-    if (bad && is_at_interface(t)) s_.block(t);
+    else if (is_bad(t) || is_poor(t))
+      bad_.emplace_back(t, clock_);
+  }
+
+  bool is_bad(TetId t) const { return m_.qualities[t] < s_.settings.repair_below; }
+  bool is_poor(TetId t) const { return m_.qualities[t] < s_.settings.reconnect_below; }
+
+  /// Of a tet that no swap has made better.
+  void ask_last_resorts(TetId t) {
+    ++clock_;
+    if (is_bad(t) && s_.settings.collapse && collapse_for_quality(t)) return;
+    if (is_poor(t) && s_.settings.swap && reconnect_for_quality(t)) return;
+    if (is_bad(t) && s_.settings.insert && star_for_quality(t)) return;
+    if (is_bad(t) && is_at_interface(t)) s_.block(t);
   }
 
   bool is_at_interface(TetId t) const {
@@ -180,6 +196,8 @@ class QualityQueue {
   PartState& s_;
   TetMesh& m_;
   std::vector<TetId> queue_;
+  std::size_t next_ = 0;
+  std::vector<std::pair<TetId, std::uint32_t>> bad_;  ///< asked for swaps in vain, and when
   std::vector<std::uint32_t> changed_, asked_;
   std::vector<std::uint32_t> touched_;  ///< when a tet of the vertex has last changed
   std::uint32_t clock_ = 2;             ///< 0 and 1 stand for what was before
