@@ -23,6 +23,15 @@ constexpr std::int64_t kTetsPerPart = 64000;
 constexpr int kManyParts = 16;
 constexpr std::int64_t kManyPartsAbove = 100000;
 
+/// The most tets of a part where parts are to be few.
+constexpr std::int64_t kTetsOfFew = 40000;
+
+/// Even, since few parts of one size leave threads without work.
+int even_count(std::int64_t tets, std::int64_t tets_per_part) {
+  const std::int64_t of_two = 2 * tets_per_part;
+  return int(2 * std::max<std::int64_t>(1, (tets + of_two - 1) / of_two));
+}
+
 /// Whether a cycle with these settings would ask the tet something.
 bool is_asked(const TetMesh& m, std::size_t t, const CycleSettings& s) {
   const std::uint8_t flags = m.tet_flags[t];
@@ -91,11 +100,10 @@ RoundResult run_whole(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
 int part_count(std::int64_t tets, const PartSize& size) {
   if (size.tets_per_part > 0) return int((tets + size.tets_per_part - 1) / size.tets_per_part);
   if (tets < size.one_part) return 1;
+  if (size.few) return even_count(tets, kTetsOfFew);
   const std::int64_t by_size = (tets + kTetsPerPart - 1) / kTetsPerPart;
   if (tets > kManyPartsAbove) return int(std::max<std::int64_t>(by_size, kManyParts));
-  // Even, since few parts of one size leave threads without work.
-  const std::int64_t pairs = (tets * kManyParts / kManyPartsAbove + 1) / 2;
-  return int(2 * std::max<std::int64_t>(1, pairs));
+  return even_count(tets, kManyPartsAbove / kManyParts);
 }
 
 RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings,

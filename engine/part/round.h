@@ -10,6 +10,9 @@ struct PartSize {
   /// A mesh of fewer tets is one part: the interfaces would be most of it. Not asked where the
   /// tets of a part are given.
   std::int64_t one_part = 12000;
+  /// Whether the mesh is cut into few parts, each large: what touches a vertex of the interface is
+  /// not mended, and hubs of needles have hundreds of tets.
+  bool few = false;
 };
 
 /// Number of parts for a mesh: a function of its size alone, never of the threads.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cavea/base/parallel.h"
 #include "cavea/part/round.h"
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/forecast.h"
@@ -15,9 +16,26 @@ CycleSettings settings_of(const Job& job, const Phase& phase) {
   return settings;
 }
 
+/// Whether needles are more of the mesh than interfaces may hold back: poor ones that stay between
+/// parts are asked all that can be asked in each sweep, round and phase that follows.
+bool is_full_of_needles(const TetMesh& mesh) {
+  constexpr float kNeedle = 0.1f;
+  constexpr double kMany = 0.002;
+  const auto needles = parallel_reduce(
+      mesh.tets.size(), std::int64_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        return std::int64_t(std::count_if(mesh.qualities.begin() + std::ptrdiff_t(begin),
+                                          mesh.qualities.begin() + std::ptrdiff_t(end),
+                                          [](float q) { return q < kNeedle; }));
+      },
+      [](std::int64_t a, std::int64_t b) { return a + b; });
+  return double(needles) > kMany * double(mesh.tets.size());
+}
+
 PartSize part_size(const Job& job, const Phase& phase) {
   PartSize size{job.options.tets_per_part};
   if (phase.one_part > 0) size.one_part = phase.one_part;
+  size.few = is_full_of_needles(job.mesh);
   return size;
 }
 
@@ -47,7 +65,6 @@ bool is_all_done(const Job& job) {
 void run_phase(Job& job, const Phase& phase) {
   TetMesh& mesh = job.mesh;
   CycleSettings settings = settings_of(job, phase);
-  const PartSize size = part_size(job, phase);
   if (phase.ask > 0) ask_all(mesh, phase.ask);
   if (phase.ask_below > 0) ask_below(mesh, phase.ask_below);
   for (int round = 1; is_to_go_on(job, phase, round); ++round) {
@@ -56,6 +73,7 @@ void run_phase(Job& job, const Phase& phase) {
     if (phase.resize && round > 1 && job.sizes.vary())
       job.resize(), ask_all(mesh, tet_flag::kAskLength);
     if (is_all_done(job)) break;
+    const PartSize size = part_size(job, phase);
     if (phase.growth > 0) settings.most_tets = most_tets_of_part(job, phase, size);
     const RoundResult result =
         run_round(mesh, job.surface.working_model(), settings, &job.report.part_of_tet, size);

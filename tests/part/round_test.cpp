@@ -134,5 +134,20 @@ TEST(PartCount, GrowsWithTheMeshAlone) {
   EXPECT_LT(last, 5000);
 }
 
+TEST(PartCount, IsSmallAndEvenWherePartsAreToBeFew) {
+  PartSize size;
+  size.few = true;
+  EXPECT_EQ(part_count(1000, size), 1);
+  EXPECT_EQ(part_count(size.one_part, size), 2);
+  EXPECT_EQ(part_count(80000, size), 2);
+  EXPECT_EQ(part_count(80001, size), 4);
+  for (std::int64_t tets = 15000; tets < 3000000; tets += tets / 7) {
+    EXPECT_LE(part_count(tets, size), std::max(part_count(tets), int(tets / 40000) + 2)) << tets;
+    EXPECT_EQ(part_count(tets, size) % 2, 0) << tets;
+  }
+  size.tets_per_part = 1000;
+  EXPECT_EQ(part_count(20000, size), 20);
+}
+
 }  // namespace
 }  // namespace cavea::test
