@@ -57,6 +57,22 @@ TEST(Remesh, WithSenselessOptionsLeavesTheMesh) {
   expect_same(mesh, start);
 }
 
+TEST(Remesh, OfAThinPlateOfNeedlesGoesOnFromItsSurface) {
+  MeshData plate = kuhn_cube(1);
+  for (Vec3& p : plate.vertices) p.z *= 0.03;
+  TetMesh mesh = built(plate);
+  const Report report = remesh(mesh, {}, uniform(0.045));
+  const auto ran = [&](std::string_view name) {
+    return std::ranges::count(report.phases, name, &PhaseTime::phase);
+  };
+  EXPECT_EQ(ran("surface"), 1);
+  EXPECT_EQ(ran("bulk") + ran("rough"), 0);
+  expect_sound(mesh);
+  EXPECT_GE(report.after.quality.worst, 0.3);
+  EXPECT_GE(report.after.quality.mean, 0.78);
+  EXPECT_GE(report.after.lengths.conforming_percent(), 95);
+}
+
 /// Cancels runs from `start` in each of their phases; \return their result.
 TetMesh cancel_in_each_phase(const TetMesh& start, Options options) {
   std::set<std::string> phases;
