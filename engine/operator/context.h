@@ -35,6 +35,8 @@ struct Limits {
   double quality_floor = 0.3;
   /// Share of the surface model's tolerance that the samples of surface triangles may use up.
   double tolerance_share = 1;
+  /// Poor tets with two faces on a smooth surface may be taken off it.
+  bool ears_go = false;
   bool surface_frozen = false;  ///< no surface triangle or vertex of one is touched
 };
 

@@ -1,5 +1,6 @@
 #include "cavea/operator/edge_swap.h"
 
+#include <algorithm>
 #include <array>
 
 namespace cavea {
@@ -65,6 +66,34 @@ class RingTriangulation {
   std::array<std::array<std::int8_t, kMaxRing + 1>, kMaxRing + 1> apex_;
 };
 
+/// Better tets stay, even if the surface without them would fit.
+constexpr double kEarBelow = 0.3;
+
+/// Whether the one tet at a smooth edge of the exterior boundary is an ear: poor, and its two other
+/// faces inside. Without it these are the surface: for the tets a swap that leaves nothing to fill.
+bool is_ear(const OperatorContext& c) {
+  const Shell& s = c.shell;
+  if (!c.limits.ears_go || s.tets.size() != 1 || s.closed || s.triangles.size() != 2) return false;
+  const TetId t = s.tets[0];
+  return c.mesh.qualities[t] < kEarBelow &&
+         std::ranges::all_of(std::array{s.p, s.q}, [&](VertexId v) {
+           return c.mesh.links[t][c.mesh.local_index(t, v)].is_tet();
+         });
+}
+
+/// Whether c.second_ball, that of a vertex of it, has the edge to `other`; of an ear, which has it
+/// inside, whether it is on the surface.
+bool has_edge(const OperatorContext& c, VertexId other, bool ear) {
+  if (!ear)
+    return std::ranges::any_of(c.second_ball.tets,
+                               [&](TetId t) { return c.mesh.local_index(t, other) < 4; });
+  bool found = false;
+  for_each_triangle(c.mesh, c.second_ball, [&](TriangleId id) {
+    found |= std::ranges::find(c.mesh.triangles[id].v, other) != c.mesh.triangles[id].v.end();
+  });
+  return found;
+}
+
 Verdict may_swap(const OperatorContext& c) {
   const Shell& s = c.shell;
   if (s.cut || c.frozen_edge(s.p, s.q)) return Verdict::kFrozen;
@@ -76,7 +105,7 @@ Verdict may_swap(const OperatorContext& c) {
 }
 
 /// The smooth surface edge (p, q) of triangles pqa and qpb becomes ab.
-Verdict swap_triangles(OperatorContext& c, Cavity& cavity) {
+Verdict swap_triangles(OperatorContext& c, bool ear, Cavity& cavity) {
   const Shell& s = c.shell;
   if (s.triangles.size() != 2) return Verdict::kBreaksFeature;
   const VertexId a = s.ring[std::size_t(s.triangles[0].ring)],
@@ -92,8 +121,7 @@ Verdict swap_triangles(OperatorContext& c, Cavity& cavity) {
   const VertexId center = pinched ? b : a, other = pinched ? a : b;
   if (c.tags(center) & tag::kPinched) return Verdict::kBreaksTopology;
   gather_ball(c.mesh, center, c.marker, c.second_ball);
-  for (TetId t : c.second_ball.tets)
-    if (c.mesh.local_index(t, other) < 4) return Verdict::kBreaksTopology;
+  if (has_edge(c, other, ear)) return Verdict::kBreaksTopology;
 
   for (const VertexId kept : {s.p, s.q}) {
     const VertexId gone = kept == s.p ? s.q : s.p;
@@ -113,8 +141,9 @@ Verdict swap_triangles(OperatorContext& c, Cavity& cavity) {
     const Triangle& t = cavity.triangles[k];
     return fit_triangle(c, {c.point(t.v[0]), c.point(t.v[1]), c.point(t.v[2])}, t.patch, hints);
   };
+  // To take off what fits no better would go on where repairs have brought the surface nearer.
   return judge_surface(cavity.triangles.size(), fit_of_new,
-                       [&] { return fit_of(c, cavity.removed_triangles); });
+                       [&] { return ear ? SurfaceFit{} : fit_of(c, cavity.removed_triangles); });
 }
 
 }  // namespace
@@ -135,6 +164,7 @@ Verdict edge_swap(OperatorContext& c, Cavity& cavity) {
     return Verdict::kAccept;
   }
   if (!s.on_surface()) return Verdict::kFrozen;  // open without a surface: the rim of a part
+  if (is_ear(c)) return swap_triangles(c, true, cavity);
   // One sector a side of the surface; on the exterior boundary there is one.
   if (s.triangles.size() != 2) return Verdict::kBreaksFeature;
   const int first = s.triangles[0].ring, second = s.triangles[1].ring, n = int(s.ring.size());
@@ -151,7 +181,7 @@ Verdict edge_swap(OperatorContext& c, Cavity& cavity) {
   if (!add_sector(std::min(first, second), std::max(first, second))) return Verdict::kWorseQuality;
   if (s.closed && !add_sector(std::max(first, second), std::min(first, second) + n))
     return Verdict::kWorseQuality;
-  return swap_triangles(c, cavity);
+  return swap_triangles(c, false, cavity);
 }
 
 }  // namespace cavea

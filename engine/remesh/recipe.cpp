@@ -70,6 +70,7 @@ Phase polish(const ResolvedOptions& o) {
   Phase p{"polish", base(o), 2, 0.005, 0};
   p.cycle.limits.shortest_made = kShortEdge;
   p.cycle.limits.leave_tolerated = true;
+  p.cycle.limits.ears_go = true;  // earlier phases move the surface, and most ears are gone after
   p.cycle.limits.quality_ratio = 0.9;
   p.cycle.limits.quality_floor = 0.4;
   p.cycle.sweeps = 4;

@@ -221,6 +221,61 @@ TEST(EdgeSwap, LeavesAnEdgeOfOneTetAlone) {
   }
 }
 
+/// A cube with a tet over the diagonal of a square in the middle of its top, whose other corners
+/// are raised by `height`: an ear over a valley. \return the cube; the diagonal first, then the
+/// others
+std::pair<MeshData, std::array<VertexId, 4>> cube_with_ear(double height) {
+  MeshData data = kuhn_cube(3);
+  const auto at = [&](double x, double y) {
+    const Vec3 corner{x / 3, y / 3, 1};
+    const auto found = std::ranges::find_if(
+        data.vertices, [&](const Vec3& p) { return distance(p, corner) < 1e-9; });
+    return VertexId(found - data.vertices.begin());
+  };
+  const std::array<VertexId, 4> v{at(1, 1), at(2, 2), at(1, 2), at(2, 1)};
+  data.vertices[std::size_t(v[2])].z += height;
+  data.vertices[std::size_t(v[3])].z += height;
+  data.tets.push_back(v);
+  data.tet_refs.push_back(1);
+  return {data, v};
+}
+
+TEST(EdgeSwap, TakesAPoorEarOffTheSurface) {
+  const auto [data, v] = cube_with_ear(0.01);
+  Stage stage(data);
+  stage.context.limits.ears_go = true;
+  const std::int64_t tets = stage.editor.living_tets();
+  ASSERT_TRUE(stage.find_edge(v[2], v[3]));
+  ASSERT_EQ(stage.context.shell.tets.size(), 1u);
+  ASSERT_EQ(stage.swap_edge(), Verdict::kAccept);
+  stage.editor.commit(stage.cavity);
+  expect_sound(stage.mesh);
+  EXPECT_EQ(stage.editor.living_tets(), tets - 1);
+  EXPECT_FALSE(stage.find_edge(v[2], v[3]));
+  ASSERT_TRUE(stage.find_edge(v[0], v[1]));
+  EXPECT_TRUE(stage.context.shell.on_surface());
+}
+
+TEST(EdgeSwap, LeavesEarsThatAreGoodOrTooHighOrOnTheirOwn) {
+  // Good; farther than the tolerance from what would be left.
+  for (const double height : {0.1, 0.045}) {
+    const auto [data, v] = cube_with_ear(height);
+    Stage stage(data);
+    stage.context.limits.ears_go = true;
+    ASSERT_TRUE(stage.find_edge(v[2], v[3])) << height;
+    ASSERT_EQ(stage.context.shell.tets.size(), 1u) << height;
+    EXPECT_NE(stage.swap_edge(), Verdict::kAccept) << height;
+  }
+  // A flat tet alone has more than two faces on the surface.
+  MeshData flat = single_tet();
+  for (Vec3& p : flat.vertices) p.z *= 0.01;
+  Stage stage(flat);
+  stage.context.limits.ears_go = true;
+  for_each_edge_way(stage, [&](VertexId p, VertexId q) {
+    EXPECT_NE(stage.swap_edge(), Verdict::kAccept) << p << ", " << q;
+  });
+}
+
 TEST(EdgeSwap, LeavesFeatureEdgesAlone) {
   for (const Subject& subject : subjects()) {
     SCOPED_TRACE(subject.name);
