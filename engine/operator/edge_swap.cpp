@@ -141,7 +141,7 @@ Verdict swap_triangles(OperatorContext& c, bool ear, Cavity& cavity) {
     const Triangle& t = cavity.triangles[k];
     return fit_triangle(c, {c.point(t.v[0]), c.point(t.v[1]), c.point(t.v[2])}, t.patch, hints);
   };
-  // To take off what fits no better would go on where repairs have brought the surface nearer.
+  // An ear goes for the sake of the volume alone: what is left must fit, however it fits itself.
   return judge_surface(cavity.triangles.size(), fit_of_new,
                        [&] { return ear ? SurfaceFit{} : fit_of(c, cavity.removed_triangles); });
 }
