@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "cavea/base/parallel.h"
@@ -27,6 +28,19 @@ std::vector<std::int32_t> ids_where(std::size_t n, Is&& is) {
       },
       1);
   return ids;
+}
+
+/// How many of [0, n) there are for which is(id).
+template <class Is>
+std::int64_t count_where(std::size_t n, Is&& is) {
+  return parallel_reduce(
+      n, std::int64_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::int64_t count = 0;
+        for (std::size_t i = begin; i < end; ++i) count += bool(is(std::int32_t(i)));
+        return count;
+      },
+      std::plus<>{});
 }
 
 }  // namespace cavea

@@ -27,6 +27,18 @@ void gather_ball(const TetMesh& mesh, VertexId v, TetMarker& marker, Ball& ball)
   }
 }
 
+bool has_vertex(const TetMesh& mesh, const Ball& ball, VertexId v) {
+  return std::ranges::any_of(ball.tets, [&](TetId t) { return mesh.local_index(t, v) < 4; });
+}
+
+bool has_on_triangle(const TetMesh& mesh, const Ball& ball, VertexId v) {
+  bool found = false;
+  for_each_triangle(mesh, ball, [&](TriangleId id) {
+    found |= std::ranges::find(mesh.triangles[id].v, v) != mesh.triangles[id].v.end();
+  });
+  return found;
+}
+
 void small_ball(const TetMesh& mesh, VertexId v, std::vector<TetId>& ball) {
   // The first ones, mostly all, are in a table; the others are looked for one by one.
   constexpr std::size_t kTabled = 128;

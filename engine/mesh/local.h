@@ -55,6 +55,11 @@ void for_each_triangle(const TetMesh& mesh, const Ball& ball, F&& f) {
   }
 }
 
+/// Whether v is on a tet of the ball.
+bool has_vertex(const TetMesh& mesh, const Ball& ball, VertexId v);
+/// Whether v is on a surface triangle at the ball's vertex.
+bool has_on_triangle(const TetMesh& mesh, const Ball& ball, VertexId v);
+
 /// The tets at an edge (p, q) in the order of rotation: tet i is (p, q, ring[i], ring[i + 1]),
 /// positively oriented. Closed shells have as many ring vertices as tets; open ones one more.
 struct Shell {

@@ -50,16 +50,6 @@ bool is_third(const Shell& s, VertexId v) {
 
 bool has(const TetMesh& m, TetId t, VertexId v) { return m.local_index(t, v) < 4; }
 
-bool next_to(const TetMesh& m, const Ball& ball, VertexId v) {
-  return std::ranges::any_of(ball.tets, [&](TetId t) { return has(m, t, v); });
-}
-
-bool on_triangle(const TetMesh& m, const Ball& ball, VertexId v) {
-  bool found = false;
-  for_each_triangle(m, ball, [&](TriangleId id) { found |= index_in(m.triangles[id], v) < 3; });
-  return found;
-}
-
 /// May edge qr, which is there inside, come to the surface? Between it and the surface at p there
 /// must be nothing but tets that vanish. Exterior boundary only: interfaces have both sides.
 bool may_surface(const OperatorContext& c, VertexId r) {
@@ -67,7 +57,7 @@ bool may_surface(const OperatorContext& c, VertexId r) {
   const auto is_exterior = [&](TriangleId id) { return !c.mesh.triangles[id].sides[1].is_tet(); };
   return std::ranges::all_of(c.fan, is_exterior) && !(c.tags(r) & tag::kPinched) &&
          std::ranges::any_of(s.tets, [&](TetId t) { return has(c.mesh, t, r); }) &&
-         !on_triangle(c.mesh, c.second_ball, r);
+         !has_on_triangle(c.mesh, c.second_ball, r);
 }
 
 /// Whether there is a face qab that stays, and would be the place of the new triangle, too: but
@@ -103,7 +93,7 @@ Verdict check_link(OperatorContext& c) {
       if (is_third(s, r)) continue;
       // An edge qr could stand in another part, out of sight.
       if (q_frozen && (c.tags(r) & tag::kFrozen)) return Verdict::kFrozen;
-      if (!next_to(c.mesh, ball_q, r)) continue;
+      if (!has_vertex(c.mesh, ball_q, r)) continue;
       if (!may_surface(c, r)) return Verdict::kBreaksTopology;
       comes_up = true;
     }

@@ -81,19 +81,6 @@ bool is_ear(const OperatorContext& c) {
          });
 }
 
-/// Whether c.second_ball, that of a vertex of it, has the edge to `other`; of an ear, which has it
-/// inside, whether it is on the surface.
-bool has_edge(const OperatorContext& c, VertexId other, bool ear) {
-  if (!ear)
-    return std::ranges::any_of(c.second_ball.tets,
-                               [&](TetId t) { return c.mesh.local_index(t, other) < 4; });
-  bool found = false;
-  for_each_triangle(c.mesh, c.second_ball, [&](TriangleId id) {
-    found |= std::ranges::find(c.mesh.triangles[id].v, other) != c.mesh.triangles[id].v.end();
-  });
-  return found;
-}
-
 Verdict may_swap(const OperatorContext& c) {
   const Shell& s = c.shell;
   if (s.cut || c.frozen_edge(s.p, s.q)) return Verdict::kFrozen;
@@ -116,12 +103,14 @@ Verdict swap_triangles(OperatorContext& c, bool ear, Cavity& cavity) {
   if ((ta.tags | tb.tags) & tag::kRequired) return Verdict::kBreaksFeature;
   auto index = [](const Triangle& t, VertexId v) { return t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2; };
   if (ta.edge_tag[index(ta, a)] & tag::kFeature) return Verdict::kBreaksFeature;
-  // An edge ab that exists already would be on the surface twice.
+  // An edge ab that exists already would be on the surface twice; an ear has it inside.
   const bool pinched = c.tags(a) & tag::kPinched;  // then not all of its tets are in its ball
   const VertexId center = pinched ? b : a, other = pinched ? a : b;
   if (c.tags(center) & tag::kPinched) return Verdict::kBreaksTopology;
   gather_ball(c.mesh, center, c.marker, c.second_ball);
-  if (has_edge(c, other, ear)) return Verdict::kBreaksTopology;
+  if (ear ? has_on_triangle(c.mesh, c.second_ball, other)
+          : has_vertex(c.mesh, c.second_ball, other))
+    return Verdict::kBreaksTopology;
 
   for (const VertexId kept : {s.p, s.q}) {
     const VertexId gone = kept == s.p ? s.q : s.p;

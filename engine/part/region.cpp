@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <functional>
 #include <utility>
 
 #include "cavea/base/id_map.h"
@@ -20,14 +19,7 @@ namespace {
 constexpr std::size_t kFew = 64;
 
 std::size_t count_holes(const TetMesh& m) {
-  return parallel_reduce(
-      m.tets.size(), std::size_t{0},
-      [&](std::size_t begin, std::size_t end) {
-        std::size_t n = 0;
-        for (std::size_t t = begin; t < end; ++t) n += !m.tet_alive(TetId(t));
-        return n;
-      },
-      std::plus<>{});
+  return std::size_t(count_where(m.tets.size(), [&](TetId t) { return !m.tet_alive(t); }));
 }
 
 /// Many tets and those around, by marks on all.

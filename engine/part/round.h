@@ -15,7 +15,7 @@ struct PartSize {
   bool few = false;
 };
 
-/// Number of parts for a mesh: a function of its size alone, never of the threads.
+/// Number of parts for a mesh of so many tets: never a function of the threads.
 int part_count(std::int64_t tets, const PartSize& size = {});
 
 struct RoundResult {

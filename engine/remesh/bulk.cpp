@@ -1,10 +1,9 @@
 #include "cavea/remesh/bulk.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
-#include "cavea/base/parallel.h"
+#include "cavea/base/ids_where.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/subdivide/contract.h"
 #include "cavea/subdivide/subdivide.h"
@@ -54,13 +53,8 @@ bool has_long_edge(const TetMesh& m, const std::array<VertexId, 4>& t) {
 template <class Item>
 double share_to_divide(const TetMesh& m, const std::vector<Item>& items) {
   if (items.empty()) return 0;
-  const auto long_ones = parallel_reduce(
-      items.size(), std::int64_t{0},
-      [&](std::size_t begin, std::size_t end) {
-        return std::int64_t(std::count_if(items.data() + begin, items.data() + end,
-                                          [&](const Item& i) { return has_long_edge(m, i); }));
-      },
-      std::plus<>{});
+  const std::int64_t long_ones = count_where(
+      items.size(), [&](std::int32_t i) { return has_long_edge(m, items[std::size_t(i)]); });
   return double(long_ones) / double(items.size());
 }
 

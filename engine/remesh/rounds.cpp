@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cavea/base/parallel.h"
+#include "cavea/base/ids_where.h"
 #include "cavea/part/round.h"
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/forecast.h"
@@ -21,21 +21,15 @@ CycleSettings settings_of(const Job& job, const Phase& phase) {
 bool is_full_of_needles(const TetMesh& mesh) {
   constexpr float kNeedle = 0.1f;
   constexpr double kMany = 0.002;
-  const auto needles = parallel_reduce(
-      mesh.tets.size(), std::int64_t{0},
-      [&](std::size_t begin, std::size_t end) {
-        return std::int64_t(std::count_if(mesh.qualities.begin() + std::ptrdiff_t(begin),
-                                          mesh.qualities.begin() + std::ptrdiff_t(end),
-                                          [](float q) { return q < kNeedle; }));
-      },
-      [](std::int64_t a, std::int64_t b) { return a + b; });
+  const std::int64_t needles =
+      count_where(mesh.tets.size(), [&](TetId t) { return mesh.qualities[t] < kNeedle; });
   return double(needles) > kMany * double(mesh.tets.size());
 }
 
 PartSize part_size(const Job& job, const Phase& phase) {
   PartSize size{job.options.tets_per_part};
   if (phase.one_part > 0) size.one_part = phase.one_part;
-  size.few = is_full_of_needles(job.mesh);
+  size.few = size.tets_per_part == 0 && is_full_of_needles(job.mesh);
   return size;
 }
 

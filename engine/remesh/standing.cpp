@@ -1,9 +1,9 @@
 #include "cavea/remesh/standing.h"
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
 
+#include "cavea/base/ids_where.h"
 #include "cavea/base/parallel.h"
 #include "cavea/field/own_sizes.h"
 #include "cavea/geometry/metric.h"
@@ -54,18 +54,6 @@ double share_of_poor(const QualityStatistics& q) {
   const auto& bins = q.histogram;
   return double(std::accumulate(bins.begin(), bins.begin() + 4, std::int64_t{0})) /
          double(std::accumulate(bins.begin(), bins.end(), std::int64_t{0}));
-}
-
-template <class Is>
-std::int64_t count_tets(const TetMesh& mesh, Is&& is) {
-  return parallel_reduce(
-      mesh.tets.size(), std::int64_t{0},
-      [&](std::size_t begin, std::size_t end) {
-        std::int64_t n = 0;
-        for (std::size_t t = begin; t < end; ++t) n += is(TetId(t));
-        return n;
-      },
-      std::plus<>{});
 }
 
 /// Whether the quality is that of results, the mean length at least `finest`, and few edges are too
@@ -138,7 +126,7 @@ std::vector<float> own_sizes_within(const TetMesh& mesh, double largest) {
 }
 
 std::int64_t count_poor(const TetMesh& mesh) {
-  return count_tets(mesh, [&](TetId t) { return is_poor(mesh, t); });
+  return count_where(mesh.tets.size(), [&](TetId t) { return is_poor(mesh, t); });
 }
 
 bool none_is_poor(const MeshSummary& now) {
