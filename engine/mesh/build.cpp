@@ -167,19 +167,16 @@ std::vector<std::int32_t> unused_of(const std::vector<VertexId>& new_vertex) {
   return unused;
 }
 
-/// Moves the tets, turning over those of negative volume.
-void take_tets(MeshData& data, const std::vector<VertexId>& new_vertex, TetMesh& mesh,
-               BuildSummary& summary) {
-  struct Found {
-    std::int64_t turned = 0, flat = 0;
-  };
-  mesh.tets = std::move(data.tets);
-  mesh.tet_refs = std::move(data.tet_refs);
-  mesh.resize_tets(mesh.tets.size());
-  const Found found = parallel_reduce(
-      mesh.tets.size(), Found{},
+struct FoundTets {
+  std::int64_t turned = 0, flat = 0;
+};
+
+/// Gives the tets their new vertices and turns over those of negative volume.
+FoundTets turn_tets(const std::vector<VertexId>& new_vertex, TetMesh& mesh) {
+  return parallel_reduce(
+      mesh.tets.size(), FoundTets{},
       [&](std::size_t begin, std::size_t end) {
-        Found here;
+        FoundTets here;
         for (std::size_t t = begin; t < end; ++t) {
           auto& tet = mesh.tets[t];
           for (VertexId& v : tet) v = new_vertex[v];
@@ -192,9 +189,26 @@ void take_tets(MeshData& data, const std::vector<VertexId>& new_vertex, TetMesh&
         }
         return here;
       },
-      [](Found a, const Found& b) {
-        return Found{a.turned + b.turned, a.flat + b.flat};
+      [](FoundTets a, const FoundTets& b) {
+        return FoundTets{a.turned + b.turned, a.flat + b.flat};
       });
+}
+
+/// Moves the tets, turning over those of negative volume.
+void take_tets(MeshData& data, const std::vector<VertexId>& new_vertex, TetMesh& mesh,
+               BuildSummary& summary) {
+  mesh.tets = std::move(data.tets);
+  mesh.tet_refs = std::move(data.tet_refs);
+  const std::size_t n = mesh.tets.size();
+  FoundTets found;
+  // New memory is slow to touch; the links, half of it, are not asked for yet.
+  run_together([&] { mesh.links.resize(n); },
+               [&] {
+                 mesh.qualities.resize(n);
+                 mesh.tet_refs.resize(n);
+                 mesh.tet_flags.resize(n);
+                 found = turn_tets(new_vertex, mesh);
+               });
   summary.turned_tets = found.turned;
   summary.flat_tets = found.flat;
 }

@@ -1,6 +1,8 @@
 #include "cavea/surface/distance.h"
 
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "cavea/base/ids_where.h"
@@ -295,6 +297,8 @@ Box reach_of(const BezierTriangle& patch, double farthest) {
 }  // namespace
 
 double measure_bulge(const SurfaceModel& model) {
+  // Of the tolerance: what bulges less is flat but for rounding, and its bound will do.
+  constexpr double kFlat = 1e-9;
   // A cubic patch is smooth: its highest place is missed by little between so many samples.
   const Lattice lattice(6);
   constexpr std::size_t kBatch = 1024;  // after which those that cannot be higher are left out
@@ -302,10 +306,11 @@ double measure_bulge(const SurfaceModel& model) {
   const std::vector<Corners> facets = facets_of(model);
   std::vector<std::pair<double, std::size_t>> highest_first(facets.size());
   parallel_for(facets.size(), [&](std::size_t f) {
-    highest_first[f] = {-bulge_bound(model.patch_of_facet(std::int32_t(f))), f};
+    highest_first[f] = {-offset_bound(model.patch_of_facet(std::int32_t(f))), f};
   });
   parallel_sort(highest_first.begin(), highest_first.end());
-  const FacetTree tree(facets);
+  if (facets.empty()) return 0;
+  if (-highest_first[0].first <= kFlat * least_hausd_of(model)) return -highest_first[0].first;
   std::vector<double> bulge2(facets.size(), 0);
   const auto sample = [&](std::size_t f) {
     const Corners& own = facets[f];
@@ -314,8 +319,7 @@ double measure_bulge(const SurfaceModel& model) {
       // The other facets matter only to a sample that would raise the largest distance.
       double d2 = closest_on_triangle(x, own[0], own[1], own[2]).distance2;
       if (d2 <= bulge2[f]) continue;
-      if (const NearestFacet r = tree.nearest(x, d2); r.facet != kNone) d2 = r.distance2;
-      bulge2[f] = std::max(bulge2[f], d2);
+      bulge2[f] = std::max(bulge2[f], model.facets_distance2(x, d2));
     }
   };
   double bulge = 0;
@@ -335,11 +339,16 @@ struct DistanceMeter::Memory {
       : model(m),
         sampling(s),
         least_hausd(least_hausd_of(m)),
-        tree(m),
         facets(facets_of(m)),
         of_model(facets.size()) {}
 
   void forget_what_changed(OutputSurface now) {
+    if (out.corners.empty()) {
+      of_out.assign(now.corners.size(), {});
+      of_model.assign(facets.size(), {});
+      out = std::move(now);
+      return;
+    }
     const Changes changes(out.corners, now.corners);
     std::vector<Sampled> kept(now.corners.size());
     parallel_for(kept.size(), [&](std::size_t t) {
@@ -359,10 +368,40 @@ struct DistanceMeter::Memory {
     out = std::move(now);
   }
 
+  /// Triangles that are still facets of the model are no farther from their patches, nor these from
+  /// them, than control points are from a flat patch: which is known without samples.
+  void bound_own_facets() {
+    constexpr double kFlat = 1e-9;  // of hausd: rounding, of which nobody need know more
+    if (sampling.enough == 0) return;
+    parallel_for(std::min(facets.size(), out.corners.size()), [&](std::size_t f) {
+      if (out.corners[f] != facets[f]) return;
+      Sampled s;
+      s.max = offset_bound(model.patch_of_facet(std::int32_t(f)));
+      s.worst = s.max / least_hausd, s.hausd = least_hausd;
+      s.where = facets[f][0];
+      s.triangle = std::int32_t(f), s.count = 1;
+      s.exact = s.worst <= kFlat;
+      for (Sampled* sampled : {&of_out[f], &of_model[f]})
+        if (sampled->count == 0) *sampled = s;
+    });
+  }
+
+  void sample() {
+    const auto is_known = [](const Sampled& s) { return s.count > 0 && s.exact; };
+    if (std::ranges::all_of(of_out, is_known) && std::ranges::all_of(of_model, is_known)) return;
+    if (!patches) patches.emplace(model);
+    const double small = sampling.enough * least_hausd;
+    const FromModel from_model(out, model, *patches, least_hausd, small);
+    Sampler(out.corners, sampling, lattices, least_hausd, true, from_model).sample_all(of_out);
+    const FacetTree tree(out.corners);
+    const FromOutput from_output(out, model, tree, small);
+    Sampler(facets, sampling, lattices, least_hausd, false, from_output).sample_all(of_model);
+  }
+
   const SurfaceModel& model;
   DistanceSampling sampling;
   double least_hausd;
-  PatchTree tree;
+  std::optional<PatchTree> patches;  ///< once one is asked
   std::vector<Corners> facets;
   Lattices lattices;
   OutputSurface out;
@@ -379,14 +418,8 @@ SurfaceDistance DistanceMeter::measure(const TetMesh& mesh) {
   OutputSurface now(mesh);
   prefer_own_facets(m.facets, now);
   m.forget_what_changed(std::move(now));
-  const double small = m.sampling.enough * m.least_hausd;
-  const FromModel from_model(m.out, m.model, m.tree, m.least_hausd, small);
-  Sampler(m.out.corners, m.sampling, m.lattices, m.least_hausd, true, from_model)
-      .sample_all(m.of_out);
-  const FacetTree tree(m.out.corners);
-  const FromOutput from_output(m.out, m.model, tree, small);
-  Sampler(m.facets, m.sampling, m.lattices, m.least_hausd, false, from_output)
-      .sample_all(m.of_model);
+  m.bound_own_facets();
+  m.sample();
   SurfaceDistance result;
   result.out_to_model = fold(m.of_out, m.sampling);
   result.far_triangles = beyond(
@@ -408,8 +441,10 @@ double default_sample_step(const TetMesh& mesh, const SurfaceModel& model) {
   constexpr double kMeanIntervals = 9;
   Box box;
   auto mean_edge = [](std::span<const Corners> triangles) {
-    double sum = 0;
-    for (const Corners& t : triangles) sum += longest_edge2(t);
+    std::vector<double> longest2(triangles.size());
+    parallel_for(longest2.size(),
+                 [&](std::size_t t) { longest2[t] = longest_edge2(triangles[t]); });
+    const double sum = std::accumulate(longest2.begin(), longest2.end(), 0.0);
     return triangles.empty() ? 0 : std::sqrt(sum / double(triangles.size()));
   };
   const std::vector<Corners> facets = facets_of(model);

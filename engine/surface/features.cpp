@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "cavea/base/parallel.h"
@@ -284,10 +285,9 @@ class Tips {
   std::vector<Fan> fans_;
 };
 
-void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars,
+void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars, const Tips& tips,
                   const FeatureOptions& options) {
   const Sharpness sharpness(options);
-  const Tips tips(m, options.least_tip);
   for (std::size_t v = 0; v < stars.size(); ++v) {
     const FeatureStar& star = stars[v];
     if (star.fans == 0) continue;
@@ -323,8 +323,17 @@ int number_patches(TetMesh& m, const std::vector<EdgeSide>& sides) {
 int classify_features(TetMesh& mesh, const FeatureOptions& options) {
   const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles);
   tag_edges(mesh, sides, options);
-  tag_vertices(mesh, gather_stars(mesh, sides), options);
-  return number_patches(mesh, sides);
+  // Work for one thread each.
+  std::vector<FeatureStar> stars;
+  std::optional<Tips> tips;
+  int patches = 0;
+  run_together([&] { stars = gather_stars(mesh, sides); },
+               [&] {
+                 tips.emplace(mesh, options.least_tip);
+                 patches = number_patches(mesh, sides);
+               });
+  tag_vertices(mesh, stars, *tips, options);
+  return patches;
 }
 
 }  // namespace cavea

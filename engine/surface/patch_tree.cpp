@@ -45,6 +45,17 @@ double bulge_bound(const BezierTriangle& p) {
   return std::sqrt(worst);
 }
 
+double offset_bound(const BezierTriangle& p) {
+  const auto [a, b, c] = p.corner;
+  double worst = distance2(p.center, (a + b + c) / 3);
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 from = p.corner[(k + 1) % 3], third = (p.corner[(k + 2) % 3] - from) / 3;
+    worst = std::max(
+        {worst, distance2(p.edge[k][0], from + third), distance2(p.edge[k][1], from + 2 * third)});
+  }
+  return std::sqrt(worst);
+}
+
 namespace {
 
 /// The search from one start.

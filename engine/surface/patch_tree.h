@@ -26,6 +26,11 @@ NearestOnPatch closest_on_patch(const Vec3& p, const BezierTriangle& patch, doub
 /// since a patch is in their hull and the distance from a convex set is a convex function.
 double bulge_bound(const BezierTriangle& patch);
 
+/// No place of the patch is farther from its flat facet's place of the same coordinates: the
+/// largest distance of a control point from where it is on a flat patch, of which the patch's
+/// places are means. So it bounds the distance of the facet from its patch, too.
+double offset_bound(const BezierTriangle& patch);
+
 /// The place of a SurfaceModel nearest to a point.
 struct NearestOnModel {
   NearestOnPatch place;

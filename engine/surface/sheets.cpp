@@ -107,6 +107,14 @@ Sheets::Hit Sheets::nearest(std::size_t t, const Place& around, std::span<const 
   return hit;
 }
 
+double Sheets::distance2(const Vec3& place, double bound2) const {
+  tree_.visit_near(place, bound2, [&](std::size_t slot) {
+    const auto& [a, b, c] = triangles_[std::size_t(tree_.order()[slot])];
+    bound2 = std::min(bound2, closest_on_triangle(place, a, b, c).distance2);
+  });
+  return bound2;
+}
+
 double Sheets::opposite(std::size_t t, const Vec3& place, const Facing& facing,
                         double reach) const {
   const Hit hit = nearest(t, place, {&place, 1}, facing, reach);

@@ -32,6 +32,10 @@ class Sheets {
   Sheets(std::vector<Corners> triangles, std::vector<std::array<std::int32_t, 3>> vertices,
          std::vector<char> one_sided);
 
+  /// Squared distance of a place from the nearest triangle, however that faces; none less than
+  /// `bound2` is `bound2`.
+  double distance2(const Vec3& place, double bound2) const;
+
   /// Distance from a place on triangle t to the nearest sheet opposite; kNothing where that is not
   /// less than `reach`.
   double opposite(std::size_t t, const Vec3& place, const Facing& facing, double reach) const;

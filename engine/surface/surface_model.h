@@ -91,6 +91,11 @@ class SurfaceModel {
     return {points_[facets_[f][0]], points_[facets_[f][1]], points_[facets_[f][2]]};
   }
 
+  /// Squared distance of a place from the flat facets; none less than `bound2` is `bound2`.
+  double facets_distance2(const Vec3& place, double bound2) const {
+    return sheets_->distance2(place, bound2);
+  }
+
   /// As if the settings had had this bound of the bulge, or theirs if that is lower; not while
   /// others read.
   void limit_bulge(double max_bulge);

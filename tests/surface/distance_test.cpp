@@ -8,6 +8,7 @@
 
 #include "cavea/base/parallel.h"
 #include "cavea/surface/facet_tree.h"
+#include "cavea/surface/patch_tree.h"
 #include "surface/shapes.h"
 
 namespace cavea {
@@ -34,6 +35,17 @@ double largest_offset(const SurfaceModel& model) {
   return worst;
 }
 
+TEST(OffsetBound, IsAboveAllOffsetsAndNearTheLargest) {
+  for (const int cells : {3, 6, 12}) {
+    const auto ball = modelled_ball(cells);
+    double bound = 0;
+    for (std::int32_t f = 0; f < std::int32_t(ball.model.facets()); ++f)
+      bound = std::max(bound, offset_bound(ball.model.patch_of_facet(f)));
+    EXPECT_GE(bound, largest_offset(ball.model));
+    EXPECT_LE(bound, 2 * largest_offset(ball.model));
+  }
+}
+
 TEST(SurfaceDistance, OfTheInputIsItsBulge) {
   const auto ball = modelled_ball(6);
   const SurfaceDistance d = measure_surface_distance(ball.mesh, ball.model, kStep);
@@ -44,6 +56,25 @@ TEST(SurfaceDistance, OfTheInputIsItsBulge) {
   EXPECT_NEAR(d.out_to_model.max, bulge, 0.02 * bulge);
   EXPECT_LT(d.out_to_model.mean, d.out_to_model.max);
   EXPECT_GT(d.out_to_model.mean, 0);
+}
+
+TEST(SurfaceDistance, OfTheInputIsTheSameWhereBoundsAreKnownWithoutSamples) {
+  const auto ball = modelled_ball(14);
+  const double none = std::numeric_limits<double>::infinity();
+  const SurfaceDistance all = measure_surface_distance(ball.mesh, ball.model, kStep);
+  const double most = 0.7 * all.worse().worst;
+  const SurfaceDistance listed = measure_surface_distance(ball.mesh, ball.model, kStep, most);
+  EXPECT_GT(listed.far_facets.size(), 100u);
+  for (const double share : {0.05, 0.3, 0.6, 0.99}) {
+    SCOPED_TRACE(share);
+    const double enough = share * all.worse().worst;
+    const SurfaceDistance d = measure_surface_distance(ball.mesh, ball.model, kStep, none, enough);
+    EXPECT_EQ(d.out_to_model.max, all.out_to_model.max);
+    EXPECT_EQ(d.model_to_out.max, all.model_to_out.max);
+    const SurfaceDistance far =
+        measure_surface_distance(ball.mesh, ball.model, kStep, most, enough);
+    EXPECT_EQ(far.far_facets.size(), listed.far_facets.size());
+  }
 }
 
 TEST(SurfaceDistance, IsFoundBetweenSamples) {
