@@ -28,7 +28,7 @@ struct Cavity {
   std::vector<std::array<FaceLink, 4>> links;
   std::vector<TriangleId> removed_triangles;
   std::vector<Triangle> triangles;
-  VertexId removed_vertex = kNone;
+  std::vector<VertexId> removed_vertices;
   bool inserts_vertex = false;  ///< `vertex` gets the id that MeshEditor::next_vertex() told
   NewVertex vertex;
 
@@ -38,7 +38,7 @@ struct Cavity {
     links.clear();
     removed_triangles.clear();
     triangles.clear();
-    removed_vertex = kNone;
+    removed_vertices.clear();
     inserts_vertex = false;
   }
 };

@@ -45,7 +45,8 @@ MeshEditor::MeshEditor(TetMesh& mesh) : mesh_(mesh), table_(kFirstTableSize) {
     if (!mesh.vertex_alive(VertexId(v))) free_vertices_.push_back(VertexId(v));
 }
 
-MeshEditor::MeshEditor(TetMesh& mesh, const Holes& holes) : mesh_(mesh), table_(kFirstTableSize) {
+MeshEditor::MeshEditor(TetMesh& mesh, const Holes& holes)
+    : mesh_(mesh), reuses_vertices_(false), table_(kFirstTableSize) {
   for (std::int32_t k = holes.tets; k-- > 0;) free_tets_.push_back(holes.first_tet + k);
   for (std::int32_t k = holes.vertices; k-- > 0;) free_vertices_.push_back(holes.first_vertex + k);
 }
@@ -265,10 +266,10 @@ void MeshEditor::release(const Cavity& cavity) {
     free_tets_.push_back(t);
   }
   living_tets_ += std::int64_t(cavity.tets.size()) - std::int64_t(cavity.removed_tets.size());
-  if (cavity.removed_vertex != kNone) {
-    mesh_.vertex_tets[cavity.removed_vertex] = kNone;
-    mesh_.vertex_tags[cavity.removed_vertex] = 0;
-    free_vertices_.push_back(cavity.removed_vertex);
+  for (const VertexId v : cavity.removed_vertices) {
+    mesh_.vertex_tets[v] = kNone;
+    mesh_.vertex_tags[v] = 0;
+    if (reuses_vertices_) free_vertices_.push_back(v);
   }
 }
 

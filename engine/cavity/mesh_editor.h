@@ -76,6 +76,8 @@ class MeshEditor {
   TetId new_tet();
 
   TetMesh& mesh_;
+  /// Not where others may look up the places of vertices at the same time.
+  bool reuses_vertices_ = true;
   std::vector<TetId> free_tets_;
   std::vector<TriangleId> free_triangles_;
   std::vector<VertexId> free_vertices_;

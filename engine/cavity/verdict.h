@@ -42,8 +42,8 @@ inline constexpr int kOperators = 9;
 
 inline const char* name(Operator o) {
   constexpr std::array<const char*, kOperators> kNames = {
-      "edge_split", "edge_collapse", "edge_swap", "face_swap",
-      "relocate", "edge_star", "reconnect", "vertex_insert", "surface_insert"};
+      "edge_split", "edge_collapse", "edge_swap",     "face_swap",     "relocate",
+      "edge_star",  "reconnect",     "vertex_insert", "surface_insert"};
   return kNames[static_cast<std::size_t>(o)];
 }
 

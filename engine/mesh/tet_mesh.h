@@ -73,6 +73,8 @@ inline constexpr Tag kPinched = 1024;
 inline constexpr Tag kInternal = 2048;
 /// Vertex that was on the interface between parts in a round of the last phase; for statistics.
 inline constexpr Tag kMetInterface = 4096;
+/// Vertex inside, among tets that are not good, that a seed may take the place of.
+inline constexpr Tag kReplaceable = 8192;
 /// What makes an edge part of a feature curve; vertex: on one.
 inline constexpr Tag kOnCurve = kRidge | kReferenceEdge | kNonManifold;
 /// What makes a surface edge one that patches end at.

@@ -56,7 +56,10 @@ void DelaunayCavity::number_vertices(const Cavity& cavity) {
 
 bool DelaunayCavity::encloses_vertex(const Cavity& cavity) {
   number_vertices(cavity);
-  return std::ranges::any_of(hidden_, [&](VertexId v) { return marked_.at(v) == IdMap::kNew; });
+  const auto& removed = cavity.removed_vertices;
+  return std::ranges::any_of(hidden_, [&](VertexId v) {
+    return marked_.at(v) == IdMap::kNew && std::ranges::find(removed, v) == removed.end();
+  });
 }
 
 void DelaunayCavity::link(Cavity& cavity) {

@@ -98,7 +98,8 @@ class DelaunayCavity {
     return true;
   }
 
-  /// Whether a vertex of the cavity would have no tets any more. \pre the new tets are in `cavity`
+  /// Whether a vertex of the cavity would have no tets any more, other than those that it removes.
+  /// \pre the new tets are in `cavity`
   bool encloses_vertex(const Cavity& cavity);
   /// Tells the cavity what its new tets link to, if its vertices are not too many. \pre no triangle
   /// was open, encloses_vertex() has been asked

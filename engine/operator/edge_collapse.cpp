@@ -255,7 +255,7 @@ Verdict edge_collapse_of_ball(OperatorContext& c, bool quality_gain, Cavity& cav
       if (const Verdict v = check_curve(c, c.fan); v != Verdict::kAccept) return v;
   }
   cavity.removed_tets = c.ball.tets;
-  cavity.removed_vertex = s.p;
+  cavity.removed_vertices = {s.p};
   return Verdict::kAccept;
 }
 

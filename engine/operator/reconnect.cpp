@@ -63,7 +63,7 @@ class GrowingCavity {
       cavity.tets.push_back({v, ref, float(context_.quality(v[0], v[1], v[2], v[3]))});
     }
     for (int i = 0; i < polyhedron_.vertices(); ++i)
-      if (!(used >> i & 1)) cavity.removed_vertex = ids_[std::size_t(i)];
+      if (!(used >> i & 1)) cavity.removed_vertices = {ids_[std::size_t(i)]};
   }
 
  private:

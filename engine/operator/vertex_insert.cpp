@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kMostSteps = 200;
 constexpr int kMostShrinks = 20;
+constexpr std::size_t kMostReplaced = 8;
 
 /// kNearest for its height above a surface triangle.
 constexpr double kLowest = 0.4;
@@ -52,7 +53,16 @@ TetId VertexInsert::locate(VertexId from, const Vec3& p) const {
   return kNone;
 }
 
-Verdict VertexInsert::may_take(const NewVertex& x, TetId t, int fresh) const {
+/// Whether the vertex may be there beside v, if that goes where it is too near.
+bool VertexInsert::may_be_beside(const NewVertex& x, VertexId v) {
+  const double least2 = kNearest * kNearest * (double(x.size) * x.size);
+  if (distance2(mesh_.points[v], x.point) >= least2) return true;
+  if (!(mesh_.vertex_tags[v] & tag::kReplaceable)) return false;
+  if (std::ranges::find(replaced_, v) == replaced_.end()) replaced_.push_back(v);
+  return true;
+}
+
+Verdict VertexInsert::may_take(const NewVertex& x, TetId t, int fresh) {
   if (mesh_.tet_flags[t] & tet_flag::kRequired) return Verdict::kBreaksFeature;
   const auto& k = mesh_.tets[t];
   const auto all = [&](auto&& holds) {
@@ -63,8 +73,7 @@ Verdict VertexInsert::may_take(const NewVertex& x, TetId t, int fresh) const {
   for (VertexId v : k) required += (mesh_.vertex_tags[v] & tag::kOnRequiredEdge) != 0;
   // An edge of it may be one that must stay.
   if (required > 1) return Verdict::kBreaksFeature;
-  const double least2 = kNearest * kNearest * (double(x.size) * x.size);
-  const bool far = all([&](VertexId v) { return distance2(mesh_.points[v], x.point) >= least2; });
+  const bool far = all([&](VertexId v) { return may_be_beside(x, v); });
   return far && !near_surface(x, t) ? Verdict::kAccept : Verdict::kBadLength;
 }
 
@@ -82,12 +91,50 @@ bool VertexInsert::near_surface(const NewVertex& x, TetId t) const {
   return false;
 }
 
+/// Adds the ball of a vertex to the first tets.
+/// \return false where it is not within reach
+bool VertexInsert::add_ball(VertexId v) {
+  in_ball_.clear();
+  ball_ = {mesh_.vertex_tets[v]};
+  in_ball_[ball_[0]] = 0;
+  for (std::size_t i = 0; i < ball_.size(); ++i) {
+    const TetId t = ball_[i];
+    const auto& k = mesh_.tets[t];
+    if (!std::ranges::all_of(k, [&](VertexId w) { return in_reach(w); })) return false;
+    if (std::int32_t& seen = is_first_[t]; seen == IdMap::kNew) seen = 0, first_.push_back(t);
+    for (int f = 0; f < 4; ++f) {
+      const FaceLink link = mesh_.links[t][f];
+      if (k[f] == v || !link.is_tet()) continue;
+      if (std::int32_t& seen = in_ball_[link.tet()]; seen == IdMap::kNew)
+        seen = 0, ball_.push_back(link.tet());
+    }
+  }
+  return true;
+}
+
+/// Grows the cavity, with all tets of what it is to replace.
+Verdict VertexInsert::grow(const NewVertex& vertex, TetId start) {
+  const auto admit = [&](TetId t, int fresh) { return may_take(vertex, t, fresh); };
+  first_ = {start};
+  is_first_.clear();
+  is_first_[start] = 0;
+  replaced_.clear();
+  for (const VertexId v : mesh_.tets[start])
+    if (!may_be_beside(vertex, v)) return Verdict::kBadLength;
+  for (std::size_t added = 0;;) {
+    for (; added < replaced_.size(); ++added)
+      if (!add_ball(replaced_[added])) return Verdict::kFrozen;
+    const Verdict grown = hole_.grow(vertex.point, first_, admit);
+    if (grown != Verdict::kAccept || replaced_.size() == added) return grown;
+    if (replaced_.size() > kMostReplaced) return Verdict::kTooLarge;
+  }
+}
+
 Verdict VertexInsert::operator()(const NewVertex& vertex, VertexId id, TetId start,
                                  Cavity& cavity) {
   cavity.clear();
-  const auto admit = [&](TetId t, int fresh) { return may_take(vertex, t, fresh); };
-  const Verdict grown = hole_.grow(vertex.point, {&start, 1}, admit);
-  if (grown != Verdict::kAccept) return grown;
+  if (const Verdict grown = grow(vertex, start); grown != Verdict::kAccept) return grown;
+  cavity.removed_vertices = replaced_;
   bool all = false;
   for (int again = 0; again < kMostShrinks && !all; ++again)
     if (!hole_.shrink_once(

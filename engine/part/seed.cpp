@@ -121,8 +121,10 @@ class SeedLevel {
     VertexId near = kNone;
     for (VertexId v : k) {
       const double d2 = distance2(mesh_.points[v], p);
-      if (d2 < nearest2) nearest2 = d2, near = v;
       size = std::min(size, mesh_.sizes[v] + options_.growth * std::sqrt(d2));
+      if (near == kNone) near = v;
+      if (mesh_.vertex_tags[v] & tag::kReplaceable) continue;  // and may be gone soon
+      if (d2 < nearest2) nearest2 = d2, near = v;
     }
     if (options_.size) size = options_.size(p, size);
     const double least = VertexInsert::kNearest * size;
@@ -207,10 +209,12 @@ class SeedLevel {
     MeshEditor editor(mesh_, b.holes);
     VertexInsert insert(mesh_, b.reach);
     Cavity cavity;
+    VertexId last = kNone;  // that was inserted, not far from the next
     for (std::size_t i = b.begin; i < b.end; ++i) {
       const Seed& s = seeds_[i];
       if ((i - b.begin) % kSeedsBetweenChecks == 0) throw_if_cancelled(options_.cancel);
-      const TetId around = insert.locate(s.near, s.point);
+      const VertexId from = insert.is_gone(s.near) ? last : s.near;
+      const TetId around = from == kNone ? kNone : insert.locate(from, s.point);
       NewVertex vertex;
       vertex.point = s.point, vertex.size = s.size;
       Verdict v =
@@ -218,7 +222,9 @@ class SeedLevel {
       if (v == Verdict::kAccept && !editor.fits(cavity)) v = Verdict::kFrozen;
       b.verdicts.add(Operator::kVertexInsert, v);
       if (v == Verdict::kFrozen) b.left.push_back(s);
-      if (v == Verdict::kAccept) editor.commit(cavity);
+      if (v != Verdict::kAccept) continue;
+      last = editor.next_vertex();
+      editor.commit(cavity);
     }
   }
 

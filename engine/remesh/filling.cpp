@@ -39,6 +39,7 @@ std::optional<TetMesh> refine_among_needles(Job& job) {
 }
 
 std::int64_t seed(Job& job) {
+  if (!job.r.freeze.collapse) tag_replaceable(job.mesh);
   const std::int64_t seeds =
       seed_interior(job.mesh, job.sizes.law(), job.options.cancel, job.verdicts);
   if (job.sizes.vary() && seeds > 0) job.resize();

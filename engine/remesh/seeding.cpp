@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cavea/base/atomic.h"
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/mesh/compact.h"
@@ -33,7 +34,23 @@ bool conforms(const TetMesh& m, TetId t) {
   });
 }
 
+/// Such a tet need not be asked for anything.
+bool is_good(const TetMesh& m, TetId t) { return m.qualities[t] >= kGoodTet && conforms(m, t); }
+
 }  // namespace
+
+void tag_replaceable(TetMesh& mesh) {
+  constexpr Tag kOfParts = tag::kWasInterface | tag::kMetInterface;
+  std::vector<std::int32_t> balance(mesh.points.size(), 0);  // good tets less others
+  parallel_for(mesh.tets.size(), [&](std::size_t t) {
+    const std::int32_t one = is_good(mesh, TetId(t)) ? 1 : -1;
+    for (const VertexId v : mesh.tets[t]) atomic_add(balance[std::size_t(v)], one);
+  });
+  parallel_for(mesh.points.size(), [&](std::size_t v) {
+    Tag& tags = mesh.vertex_tags[v];
+    if (!(tags & ~kOfParts) && balance[v] < 0) tags |= tag::kReplaceable;
+  });
+}
 
 std::int64_t seed_interior(TetMesh& mesh, const SizeLaw& law, const std::atomic<bool>* cancel,
                            VerdictTable& verdicts) {
@@ -60,13 +77,14 @@ std::int64_t seed_interior(TetMesh& mesh, const SizeLaw& law, const std::atomic<
     seeds += inserted;
     verdicts += result;
   }
+  parallel_for(mesh.points.size(),
+               [&](std::size_t v) { mesh.vertex_tags[v] &= Tag(~tag::kReplaceable); });
   return seeds;
 }
 
 void trust_good_tets(TetMesh& mesh) {
   parallel_for(mesh.tets.size(), [&](std::size_t t) {
-    if (mesh.qualities[t] >= kGoodTet && conforms(mesh, TetId(t)))
-      mesh.tet_flags[t] &= std::uint8_t(~tet_flag::kAskAll);
+    if (is_good(mesh, TetId(t))) mesh.tet_flags[t] &= std::uint8_t(~tet_flag::kAskAll);
   });
 }
 

@@ -298,7 +298,7 @@ Box reach_of(const BezierTriangle& patch, double farthest) {
 
 double measure_bulge(const SurfaceModel& model) {
   // Of the tolerance: what bulges less is flat but for rounding, and its bound will do.
-  constexpr double kFlat = 1e-9;
+  constexpr double kRounding = 1e-9;
   // A cubic patch is smooth: its highest place is missed by little between so many samples.
   const Lattice lattice(6);
   constexpr std::size_t kBatch = 1024;  // after which those that cannot be higher are left out
@@ -310,7 +310,7 @@ double measure_bulge(const SurfaceModel& model) {
   });
   parallel_sort(highest_first.begin(), highest_first.end());
   if (facets.empty()) return 0;
-  if (-highest_first[0].first <= kFlat * least_hausd_of(model)) return -highest_first[0].first;
+  if (-highest_first[0].first <= kRounding * least_hausd_of(model)) return -highest_first[0].first;
   std::vector<double> bulge2(facets.size(), 0);
   const auto sample = [&](std::size_t f) {
     const Corners& own = facets[f];
@@ -371,7 +371,7 @@ struct DistanceMeter::Memory {
   /// Triangles that are still facets of the model are no farther from their patches, nor these from
   /// them, than control points are from a flat patch: which is known without samples.
   void bound_own_facets() {
-    constexpr double kFlat = 1e-9;  // of hausd: rounding, of which nobody need know more
+    constexpr double kRounding = 1e-9;  // of hausd: rounding, of which nobody need know more
     if (sampling.enough == 0) return;
     parallel_for(std::min(facets.size(), out.corners.size()), [&](std::size_t f) {
       if (out.corners[f] != facets[f]) return;
@@ -380,7 +380,7 @@ struct DistanceMeter::Memory {
       s.worst = s.max / least_hausd, s.hausd = least_hausd;
       s.where = facets[f][0];
       s.triangle = std::int32_t(f), s.count = 1;
-      s.exact = s.worst <= kFlat;
+      s.exact = s.worst <= kRounding;
       for (Sampled* sampled : {&of_out[f], &of_model[f]})
         if (sampled->count == 0) *sampled = s;
     });

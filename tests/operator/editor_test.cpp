@@ -71,7 +71,7 @@ TEST(MeshEditor, KnowsTetsOfVerticesThatNoNewTetHas) {
     const TetId tet = mesh.local_index(0, cut) < 4 ? 0 : 1;
     Cavity cavity;
     cavity.removed_tets = {tet};
-    cavity.removed_vertex = cut;
+    cavity.removed_vertices = {cut};
     for (const FaceLink link : mesh.links[tet])
       if (link.is_triangle()) cavity.removed_triangles.push_back(link.triangle());
     Triangle face = mesh.triangles[cavity.removed_triangles[0]];

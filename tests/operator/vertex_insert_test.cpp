@@ -155,6 +155,64 @@ TEST(VertexInsert, MakesGoodTets) {
   EXPECT_GT(quality_statistics(mesh).mean, 0.58);
 }
 
+/// Each vertex inside of a grid of 6^3 cells is asked for, from a place beside it.
+int insert_beside_all(TetMesh& mesh, float size) {
+  constexpr std::uint64_t kSeed = 13;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  Random random(kSeed);
+  MeshEditor editor(mesh);
+  VertexInsert insert(mesh, kEverywhere);
+  Cavity cavity;
+  int done = 0;
+  const auto n = VertexId(mesh.points.size());
+  for (VertexId v = 0; v < n; ++v) {
+    if (!mesh.vertex_alive(v) || (mesh.vertex_tags[v] & tag::kSurface)) continue;
+    NewVertex x;
+    x.point = mesh.points[v] + 0.02 * Vec3{random.unit(), random.unit(), random.unit()};
+    x.size = size;
+    const TetId t = insert.locate(v, x.point);
+    if (t == kNone || insert(x, editor.next_vertex(), t, cavity) != Verdict::kAccept) continue;
+    editor.commit(cavity);
+    EXPECT_TRUE(insert.is_gone(v));
+    ++done;
+  }
+  return done;
+}
+
+TEST(VertexInsert, TakesThePlaceOfWhatIsReplaceableAlone) {
+  const TetMesh before = build(kuhn_cube(6)).mesh;
+  TetMesh mesh = before;
+  EXPECT_EQ(insert_beside_all(mesh, 0.2F), 0);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (!(mesh.vertex_tags[v] & tag::kSurface)) mesh.vertex_tags[v] |= tag::kReplaceable;
+  EXPECT_GT(insert_beside_all(mesh, 0.2F), 80);  // of 125
+  expect_sound(mesh);
+  compact(mesh);
+  EXPECT_EQ(mesh.points.size(), before.points.size());
+  EXPECT_NEAR(volume(mesh), 1, 1e-12);
+  EXPECT_EQ(euler(mesh), euler(before));
+}
+
+TEST(VertexInsert, TakesThePlaceOfSeveral) {
+  TetMesh mesh = build(kuhn_cube(6)).mesh;
+  const std::size_t before = mesh.points.size();
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (!(mesh.vertex_tags[v] & tag::kSurface)) mesh.vertex_tags[v] |= tag::kReplaceable;
+  MeshEditor editor(mesh);
+  VertexInsert insert(mesh, kEverywhere);
+  Cavity cavity;
+  NewVertex x;
+  x.point = {0.58, 0.58, 0.58};  // in the middle of a cell, 0.14 from its eight vertices
+  x.size = 0.25F;                // 0.175 around it is to be free
+  const TetId t = insert.locate(0, x.point);
+  ASSERT_EQ(insert(x, editor.next_vertex(), t, cavity), Verdict::kAccept);
+  editor.commit(cavity);
+  expect_sound(mesh);
+  compact(mesh);
+  EXPECT_EQ(mesh.points.size(), before - 7);
+  EXPECT_NEAR(volume(mesh), 1, 1e-12);
+}
+
 TEST(VertexInsert, LeavesWhatIsRequired) {
   MeshData data = kuhn_cube(4);
   for (std::int32_t t = 0; t < std::int32_t(data.tets.size()); t += 7)
