@@ -15,8 +15,12 @@
 namespace cavea {
 namespace {
 
-/// Where less than this share of the mesh is asked, or is holes, it is worth not to touch the rest.
-constexpr std::size_t kFew = 64;
+/// Where less than this share of the mesh is holes it is worth not to touch the rest.
+constexpr std::size_t kFewHoles = 64;
+
+/// The same where less is asked. One asked tet costs as much as 200 that are looked at, which all
+/// threads share.
+constexpr std::size_t kFewAsked = 256;
 
 std::size_t count_holes(const TetMesh& m) {
   return std::size_t(count_where(m.tets.size(), [&](TetId t) { return !m.tet_alive(t); }));
@@ -44,8 +48,8 @@ std::vector<TetId> with_layers_of_many(const TetMesh& m, const std::vector<TetId
 
 std::vector<TetId> with_layers(const TetMesh& m, std::vector<TetId> tets, int layers) {
   if (tets.size() == m.tets.size()) return tets;
-  return kFew * tets.size() < m.tets.size() ? with_layers_of_few(m, std::move(tets), layers)
-                                            : with_layers_of_many(m, tets, layers);
+  return kFewAsked * tets.size() < m.tets.size() ? with_layers_of_few(m, std::move(tets), layers)
+                                                 : with_layers_of_many(m, tets, layers);
 }
 
 std::vector<TetId> with_layers_of_few(const TetMesh& m, std::vector<TetId> tets, int layers) {
@@ -70,7 +74,7 @@ std::vector<TetId> with_layers_of_few(const TetMesh& m, std::vector<TetId> tets,
 }
 
 void remove_holes(TetMesh& m, std::vector<std::int32_t>& of_tet) {
-  if (kFew * count_holes(m) < m.tets.size()) return fill_holes(m, &of_tet);
+  if (kFewHoles * count_holes(m) < m.tets.size()) return fill_holes(m, &of_tet);
   living_tets(m).keep_in(of_tet);
   compact(m);
 }

@@ -9,6 +9,7 @@
 #include "cavea/base/cancel.h"
 #include "cavea/base/parallel.h"
 #include "cavea/cavity/mesh_editor.h"
+#include "cavea/mesh/grow.h"
 #include "cavea/operator/vertex_insert.h"
 
 namespace cavea {
@@ -194,11 +195,7 @@ class SeedLevel {
       tets += std::size_t(b.holes.tets), vertices += std::size_t(b.holes.vertices);
     }
     // What one pass leaves is little: the next one is to find room without moving all.
-    if (tets > mesh_.tets.capacity()) mesh_.reserve_tets(tets + tets / kSpareShare);
-    if (vertices > mesh_.points.capacity())
-      mesh_.reserve_vertices(vertices + vertices / kSpareShare);
-    mesh_.resize_tets(tets);
-    mesh_.resize_vertices(vertices);
+    grow(mesh_, tets, vertices, kSpareShare);
   }
 
   void insert_color(std::vector<Block>& blocks, std::size_t begin, std::size_t end) {
