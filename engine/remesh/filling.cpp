@@ -60,7 +60,7 @@ void coarsen_in_bulk(Job& job) {
 
 Seeds fill(Job& job) {
   if (job.r.freeze.insert) return Seeds::kAbsent;
-  constexpr double kFew = 0.05, kMost = 0.5;  // of all vertices
+  constexpr double kFew = 0.05, kMost = 0.5, kNearlyAll = 0.8;  // of all vertices
   TetMesh& mesh = job.mesh;
   std::optional<TetMesh> before;
   const bool of_needles = job.report.before.quality.mean < kOfNeedles;
@@ -76,6 +76,7 @@ Seeds fill(Job& job) {
   std::int64_t seeds = 0;
   job.steps.timed("seeding", [&] { seeds = seed(job); });
   const double share = double(seeds) / double(mesh.points.size());
+  if (share >= kNearlyAll) return Seeds::kNearlyAll;
   if (share >= kMost) return Seeds::kMost;
   if (!divided || share >= kFew) return Seeds::kSome;
   if (of_needles && quality_statistics(mesh).mean >= kGoodWithoutSeeds) return Seeds::kSome;

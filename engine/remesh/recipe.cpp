@@ -151,7 +151,12 @@ std::vector<Phase> holding_good(std::vector<Phase> phases) {
 std::vector<Phase> recipe(const ResolvedOptions& o, Seeds seeds) {
   if (seeds == Seeds::kAbsent) return {rough(o), fine(o), polish(o)};
   Phase first = fine(o);
-  if (seeds == Seeds::kMost) first.cycle.first_slack = kEvenedOut;
+  if (seeds >= Seeds::kMost) first.cycle.first_slack = kEvenedOut;
+  if (seeds == Seeds::kNearlyAll) {
+    // Lattices need no shaking, and little of the whole is left for a third round.
+    first.cycle.shake_below = 0;
+    first.rounds = 2;
+  }
   first.ask = 0;  // all are asked, but those that are trusted
   return {first, polish(o)};
 }

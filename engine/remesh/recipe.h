@@ -28,7 +28,7 @@ struct Phase {
 };
 
 /// How many of a mesh's vertices are seeds; kAbsent where it was not filled with them at all.
-enum class Seeds { kAbsent, kSome, kMost };
+enum class Seeds { kAbsent, kSome, kMost, kNearlyAll };
 
 /// The phases of section 4.3: rough sampling of the surface, rough and fine adaptation to the
 /// sizes, and a last polish of quality. Nothing is rough in a mesh that is thinned and filled with

@@ -16,7 +16,7 @@ double offers_below(const Phase& p) {
 
 // A tet that was asked is not asked again until something changes around it.
 TEST(Recipe, WhatAPhaseOffersFirstItAsksAgain) {
-  for (const Seeds seeds : {Seeds::kAbsent, Seeds::kSome, Seeds::kMost}) {
+  for (const Seeds seeds : {Seeds::kAbsent, Seeds::kSome, Seeds::kMost, Seeds::kNearlyAll}) {
     const std::vector<Phase> phases = recipe({}, seeds);
     const Phase& last = phases.back();
     EXPECT_GE(last.ask_below, offers_below(last));
