@@ -81,22 +81,30 @@ void write_row(Encoder& out, const std::array<std::int32_t, N>& indices) {
 }
 
 /// Writes rows [0, n): encode(buffer, begin, end) runs on blocks of them in parallel, and the file
-/// gets them in order. Few enough blocks at a time that the buffers stay small beside the mesh.
+/// gets them in order, while the next ones are encoded. Few enough blocks at a time that the
+/// buffers stay small beside the mesh.
 template <class Encode>
 void write_blocks(OutputFile& file, std::size_t n, Encode&& encode) {
   constexpr std::size_t kRowsPerBlock = 8192;
-  constexpr std::size_t kBlocksAtOnce = 64;
-  std::vector<Buffer> buffers(std::min(kBlocksAtOnce, (n + kRowsPerBlock - 1) / kRowsPerBlock));
-  for (std::size_t done = 0; done < n;) {
-    const std::size_t stop = std::min(n, done + kBlocksAtOnce * kRowsPerBlock);
-    const std::size_t blocks = (stop - done + kRowsPerBlock - 1) / kRowsPerBlock;
-    parallel_tasks(blocks, [&](std::size_t k) {
-      buffers[k].clear();
-      const std::size_t begin = done + k * kRowsPerBlock;
-      encode(buffers[k], begin, std::min(stop, begin + kRowsPerBlock));
+  constexpr std::size_t kBlocksAtOnce = 32;
+  const std::size_t blocks = (n + kRowsPerBlock - 1) / kRowsPerBlock;
+  std::vector<Buffer> encoded, next;
+  const auto encode_from = [&](std::size_t first) {
+    next.resize(std::min(kBlocksAtOnce, blocks - std::min(blocks, first)));
+    parallel_tasks(next.size(), [&](std::size_t k) {
+      next[k].clear();
+      const std::size_t begin = (first + k) * kRowsPerBlock;
+      encode(next[k], begin, std::min(n, begin + kRowsPerBlock));
     });
-    for (std::size_t k = 0; k < blocks; ++k) append(file, buffers[k]);
-    done = stop;
+  };
+  encode_from(0);
+  for (std::size_t first = kBlocksAtOnce; !next.empty(); first += kBlocksAtOnce) {
+    encoded.swap(next);
+    run_together(
+        [&] {
+          for (const Buffer& buffer : encoded) append(file, buffer);
+        },
+        [&] { encode_from(first); });
   }
 }
 
