@@ -126,7 +126,7 @@ class DelaunayCavity {
     if (!in_sphere(p, mesh_.corners(t))) return Verdict::kBreaksFeature;
     const Verdict v = admit(t, link.face());
     if (v != Verdict::kAccept) return v;
-    if (found_.size() == kMostTets) return Verdict::kTooLarge;
+    if (found_.size() >= kMostTets) return Verdict::kTooLarge;
     found_.push_back(t);
     return v;
   }

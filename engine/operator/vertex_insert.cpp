@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kMostSteps = 200;
 constexpr int kMostShrinks = 20;
+/// Where more vertices are too near to one, the mesh was to be thinned first.
 constexpr std::size_t kMostReplaced = 8;
 
 /// kNearest for its height above a surface triangle.
@@ -41,10 +42,10 @@ TetId VertexInsert::locate(VertexId from, const Vec3& p) const {
       const Vec3& o = x[std::size_t(fv[0])];
       if (!beyond(p, o, x[std::size_t(fv[1])], x[std::size_t(fv[2])])) continue;
       inside = false;
-      const FaceLink link = mesh_.links[t][f];
-      if (!link.is_tet() || link.tet() == before) continue;
       const auto& k = mesh_.tets[t];
-      if (in_reach(k[fv[0]]) || in_reach(k[fv[1]]) || in_reach(k[fv[2]])) next = link.tet();
+      if (!in_reach(k[fv[0]]) && !in_reach(k[fv[1]]) && !in_reach(k[fv[2]])) continue;
+      const FaceLink link = mesh_.links[t][f];
+      if (link.is_tet() && link.tet() != before) next = link.tet();
     }
     if (inside) return t;
     before = t;
@@ -91,16 +92,18 @@ bool VertexInsert::near_surface(const NewVertex& x, TetId t) const {
   return false;
 }
 
-/// Adds the ball of a vertex to the first tets.
-/// \return false where it is not within reach
-bool VertexInsert::add_ball(VertexId v) {
+/// Adds the ball of a vertex to the first tets. Verdicts: kAccept, kFrozen where it is not within
+/// reach, kTooLarge.
+Verdict VertexInsert::add_ball(VertexId v) {
+  if (!in_reach(v)) return Verdict::kFrozen;
   in_ball_.clear();
   ball_ = {mesh_.vertex_tets[v]};
   in_ball_[ball_[0]] = 0;
   for (std::size_t i = 0; i < ball_.size(); ++i) {
     const TetId t = ball_[i];
     const auto& k = mesh_.tets[t];
-    if (!std::ranges::all_of(k, [&](VertexId w) { return in_reach(w); })) return false;
+    if (!std::ranges::all_of(k, [&](VertexId w) { return in_reach(w); })) return Verdict::kFrozen;
+    if (first_.size() >= DelaunayCavity::kMostTets) return Verdict::kTooLarge;
     if (std::int32_t& seen = is_first_[t]; seen == IdMap::kNew) seen = 0, first_.push_back(t);
     for (int f = 0; f < 4; ++f) {
       const FaceLink link = mesh_.links[t][f];
@@ -109,7 +112,7 @@ bool VertexInsert::add_ball(VertexId v) {
         seen = 0, ball_.push_back(link.tet());
     }
   }
-  return true;
+  return Verdict::kAccept;
 }
 
 /// Grows the cavity, with all tets of what it is to replace.
@@ -122,11 +125,11 @@ Verdict VertexInsert::grow(const NewVertex& vertex, TetId start) {
   for (const VertexId v : mesh_.tets[start])
     if (!may_be_beside(vertex, v)) return Verdict::kBadLength;
   for (std::size_t added = 0;;) {
+    if (replaced_.size() > kMostReplaced) return Verdict::kTooLarge;
     for (; added < replaced_.size(); ++added)
-      if (!add_ball(replaced_[added])) return Verdict::kFrozen;
+      if (const Verdict v = add_ball(replaced_[added]); v != Verdict::kAccept) return v;
     const Verdict grown = hole_.grow(vertex.point, first_, admit);
     if (grown != Verdict::kAccept || replaced_.size() == added) return grown;
-    if (replaced_.size() > kMostReplaced) return Verdict::kTooLarge;
   }
 }
 

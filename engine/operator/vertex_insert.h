@@ -31,7 +31,7 @@ class VertexInsert {
  private:
   /// \param fresh the only vertex of it that is not of a tet taken before; 4: all are
   Verdict may_take(const NewVertex& vertex, TetId t, int fresh);
-  bool add_ball(VertexId v);
+  Verdict add_ball(VertexId v);
   bool may_be_beside(const NewVertex& vertex, VertexId v);
   Verdict grow(const NewVertex& vertex, TetId start);
   bool in_reach(VertexId v) const { return reach_.contains(mesh_.points[v]); }

@@ -17,7 +17,7 @@ std::int64_t seed_interior(TetMesh& mesh, const SizeLaw& law, const std::atomic<
                            VerdictTable& verdicts);
 
 /// Tags the vertices inside of whose tets fewer than half are good and of conforming lengths: what
-/// seeds would leave between such vertices costs more than seeds in place of them.
+/// seeds would leave between such vertices costs more than seeds in place of them. \pre no holes
 void tag_replaceable(TetMesh& mesh);
 
 /// Good tets of conforming lengths need not be asked for anything.

@@ -66,12 +66,13 @@ class DistanceMeter {
 /// Measures the Hausdorff distance on samples: each triangle, and each patch over its facet, on a
 /// barycentric lattice whose spacing on the flat triangle is at most `step`, coarser where a
 /// triangle would have more than about 300 samples; its corners, edge midpoints and centroid are
-/// always among them. Each sample is measured against all of the other surface, whatever its
-/// patches. Infinite from a surface that is empty; 0 of one that is. The same bits at any number of
-/// threads. \param step greater than 0 \param enough where corners, edge midpoints and centroid are
-/// all within so many hausd, no more samples are taken; if not 0, what is nearer than the farthest
-/// is not measured exactly, and there is no mean
-/// \param most triangles and facets with samples beyond so many hausd are listed
+/// always among them. Distances below a billionth of hausd are rounding, and may be bounds. Each
+/// sample is measured against all of the other surface, whatever its patches. Infinite from a
+/// surface that is empty; 0 of one that is. The same bits at any number of threads. \param step
+/// greater than 0 \param enough where corners, edge midpoints and centroid are all within so many
+/// hausd, no more samples are taken; if not 0, what is nearer than the farthest is not measured
+/// exactly, and there is no mean \param most triangles and facets with samples beyond so many hausd
+/// are listed
 SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel& model,
                                          double step,
                                          double most = std::numeric_limits<double>::infinity(),
