@@ -158,10 +158,8 @@ void read_rows(const File& file, const Section& s, std::string_view entity,
   constexpr bool kWithRefs = !std::is_null_pointer_v<Refs>;
   // blocks() has seen that the file holds as many numbers as it announces: only now allocate.
   const std::vector<Block> blocks = file.blocks(s, layout_of(rows.data(), kWithRefs));
-  run_together([&] { rows.resize(std::size_t(s.count)); },
-               [&] {
-                 if constexpr (kWithRefs) refs->resize(std::size_t(s.count));
-               });
+  rows.resize(std::size_t(s.count));
+  if constexpr (kWithRefs) refs->resize(std::size_t(s.count));
   std::vector<std::optional<Fault>> faults(blocks.size());
   parallel_tasks(blocks.size(), [&](std::size_t k) {
     file.visit(blocks[k], [&](auto& cursor) {

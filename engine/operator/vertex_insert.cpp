@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cavea/geometry/quality.h"
+#include "cavea/mesh/local.h"
 
 namespace cavea {
 namespace {
@@ -96,21 +97,12 @@ bool VertexInsert::near_surface(const NewVertex& x, TetId t) const {
 /// reach, kTooLarge.
 Verdict VertexInsert::add_ball(VertexId v) {
   if (!in_reach(v)) return Verdict::kFrozen;
-  in_ball_.clear();
-  ball_ = {mesh_.vertex_tets[v]};
-  in_ball_[ball_[0]] = 0;
-  for (std::size_t i = 0; i < ball_.size(); ++i) {
-    const TetId t = ball_[i];
+  small_ball(mesh_, v, ball_);
+  for (const TetId t : ball_) {
     const auto& k = mesh_.tets[t];
     if (!std::ranges::all_of(k, [&](VertexId w) { return in_reach(w); })) return Verdict::kFrozen;
     if (first_.size() >= DelaunayCavity::kMostTets) return Verdict::kTooLarge;
     if (std::int32_t& seen = is_first_[t]; seen == IdMap::kNew) seen = 0, first_.push_back(t);
-    for (int f = 0; f < 4; ++f) {
-      const FaceLink link = mesh_.links[t][f];
-      if (k[f] == v || !link.is_tet()) continue;
-      if (std::int32_t& seen = in_ball_[link.tet()]; seen == IdMap::kNew)
-        seen = 0, ball_.push_back(link.tet());
-    }
   }
   return Verdict::kAccept;
 }
@@ -122,6 +114,7 @@ Verdict VertexInsert::grow(const NewVertex& vertex, TetId start) {
   is_first_.clear();
   is_first_[start] = 0;
   replaced_.clear();
+  // What the first tet tells is mostly all: then it grows once.
   for (const VertexId v : mesh_.tets[start])
     if (!may_be_beside(vertex, v)) return Verdict::kBadLength;
   for (std::size_t added = 0;;) {

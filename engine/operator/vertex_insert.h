@@ -42,7 +42,7 @@ class VertexInsert {
   DelaunayCavity hole_;
   std::vector<TetId> first_;  ///< that the cavity must have
   std::vector<TetId> ball_;
-  IdMap is_first_, in_ball_;
+  IdMap is_first_;
   std::vector<VertexId> replaced_;  ///< whose tets are among these, or are to be
 };
 

@@ -19,6 +19,9 @@ namespace {
 /// diagonals: what is farther is looked for from each sample.
 constexpr double kReach = 0.5;
 
+/// Of hausd: what is less is rounding, of which nobody need know more than a bound.
+constexpr double kRounding = 1e-9;
+
 double reach_around(const Box& box, double hausd) {
   return std::min(hausd, kReach * distance(box.low, box.high));
 }
@@ -297,8 +300,6 @@ Box reach_of(const BezierTriangle& patch, double farthest) {
 }  // namespace
 
 double measure_bulge(const SurfaceModel& model) {
-  // Of the tolerance: what bulges less is flat but for rounding, and its bound will do.
-  constexpr double kRounding = 1e-9;
   // A cubic patch is smooth: its highest place is missed by little between so many samples.
   const Lattice lattice(6);
   constexpr std::size_t kBatch = 1024;  // after which those that cannot be higher are left out
@@ -336,11 +337,7 @@ double measure_bulge(const SurfaceModel& model) {
 
 struct DistanceMeter::Memory {
   Memory(const SurfaceModel& m, const DistanceSampling& s)
-      : model(m),
-        sampling(s),
-        least_hausd(least_hausd_of(m)),
-        facets(facets_of(m)),
-        of_model(facets.size()) {}
+      : model(m), sampling(s), least_hausd(least_hausd_of(m)), facets(facets_of(m)) {}
 
   void forget_what_changed(OutputSurface now) {
     if (out.corners.empty()) {
@@ -371,7 +368,6 @@ struct DistanceMeter::Memory {
   /// Triangles that are still facets of the model are no farther from their patches, nor these from
   /// them, than control points are from a flat patch: which is known without samples.
   void bound_own_facets() {
-    constexpr double kRounding = 1e-9;  // of hausd: rounding, of which nobody need know more
     if (sampling.enough == 0) return;
     parallel_for(std::min(facets.size(), out.corners.size()), [&](std::size_t f) {
       if (out.corners[f] != facets[f]) return;
