@@ -36,7 +36,7 @@ void tag_by_triangles(TetMesh& mesh, const SurfaceEdges& edges) {
 /// The tag that the lists ask for each edge of data.
 std::vector<Tag> listed_tags(const MeshData& data) {
   std::vector<Tag> tags(data.edges.size(), 0);
-  for (const std::int32_t e : data.ridges) tags[e] |= tag::kRidge;
+  for (const std::int32_t e : data.ridges) tags[e] |= tag::kRidge | tag::kGiven;
   for (const std::int32_t e : data.required_edges) tags[e] |= tag::kRequired;
   for (Tag& t : tags)
     if (t == 0) t = tag::kReferenceEdge;
@@ -141,7 +141,7 @@ void tag_features(TetMesh& mesh, const MeshData& data, const std::vector<VertexI
   const std::vector<EdgeEnds> inside = tag_listed(mesh, edges, data, new_vertex, summary);
   mesh.vertex_tags = surface_vertex_tags(mesh);
   tag_inside(mesh, inside, summary);
-  tag_listed_vertices(mesh, data.corners, tag::kCorner, new_vertex);
+  tag_listed_vertices(mesh, data.corners, tag::kCorner | tag::kGiven, new_vertex);
   tag_listed_vertices(mesh, data.required_vertices, tag::kRequired, new_vertex);
   tag_required_tets(mesh, data.required_tets);
 }

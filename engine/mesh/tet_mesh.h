@@ -75,6 +75,8 @@ inline constexpr Tag kInternal = 2048;
 inline constexpr Tag kMetInterface = 4096;
 /// Vertex inside, among tets that are not good, that a seed may take the place of.
 inline constexpr Tag kReplaceable = 8192;
+/// Ridge or corner that the input lists.
+inline constexpr Tag kGiven = 16384;
 /// What makes an edge part of a feature curve; vertex: on one.
 inline constexpr Tag kOnCurve = kRidge | kReferenceEdge | kNonManifold;
 /// What makes a surface edge one that patches end at.

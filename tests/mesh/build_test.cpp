@@ -113,7 +113,7 @@ TEST(Build, DropsUnusedVertices) {
   EXPECT_EQ(r.summary.dropped_edges, 1);
   EXPECT_EQ(r.mesh.vertex_refs, (std::vector<std::int32_t>{10, 12, 13, 14, 15}));
   EXPECT_EQ(r.mesh.sizes, (std::vector<float>{0.5, 1, 1.5, 2, 2.5}));
-  EXPECT_EQ(r.mesh.vertex_tags[1], tag::kSurface | tag::kCorner);
+  EXPECT_EQ(r.mesh.vertex_tags[1], tag::kSurface | tag::kCorner | tag::kGiven);
   EXPECT_EQ(r.mesh.vertex_tags[2], tag::kSurface);
   EXPECT_EQ(check(r.mesh).message(), "sound");
 }

@@ -47,12 +47,14 @@ TEST(Features, ListedEdgesGetTheirTags) {
   EXPECT_EQ(r.summary.dropped_edges, 2);
 
   // Listed twice, the second time as no ridge: the first reference stays, the tags add up.
-  EXPECT_EQ(edge_state(mesh, 0, 1).tags, std::set<Tag>{tag::kRidge | tag::kReferenceEdge});
+  EXPECT_EQ(edge_state(mesh, 0, 1).tags,
+            std::set<Tag>{tag::kRidge | tag::kReferenceEdge | tag::kGiven});
   EXPECT_EQ(edge_state(mesh, 0, 1).refs, std::set<std::int32_t>{31});
   EXPECT_EQ(edge_state(mesh, 0, 2).tags, std::set<Tag>{tag::kRequired});
   EXPECT_EQ(edge_state(mesh, 0, 2).refs, std::set<std::int32_t>{32});
   EXPECT_EQ(edge_state(mesh, 0, 3).tags, std::set<Tag>{tag::kReferenceEdge});
-  EXPECT_EQ(edge_state(mesh, 1, 4).tags, (std::set<Tag>{tag::kRidge | tag::kRequired}));
+  EXPECT_EQ(edge_state(mesh, 1, 4).tags,
+            (std::set<Tag>{tag::kRidge | tag::kRequired | tag::kGiven}));
   EXPECT_EQ(edge_state(mesh, 1, 2).tags, std::set<Tag>{0});
   EXPECT_EQ(edge_state(mesh, 0, 1).triangles, 2u);
 
@@ -140,11 +142,11 @@ TEST(Features, RequiredTetsAndVertices) {
   const TetMesh mesh = build(data).mesh;
   EXPECT_EQ(mesh.tet_flags[0] & tet_flag::kRequired, 0);
   EXPECT_EQ(mesh.tet_flags[1], tet_flag::kAskAll | tet_flag::kRequired);
-  EXPECT_EQ(mesh.vertex_tags[0], tag::kSurface | tag::kRequired | tag::kCorner);
+  EXPECT_EQ(mesh.vertex_tags[0], tag::kSurface | tag::kRequired | tag::kCorner | tag::kGiven);
   for (const VertexId v : {1, 2, 3})
     EXPECT_EQ(mesh.vertex_tags[v], tag::kSurface | tag::kRequired | tag::kOnRequiredEdge);
   EXPECT_EQ(mesh.vertex_tags[4],
-            tag::kSurface | tag::kRequired | tag::kOnRequiredEdge | tag::kCorner);
+            tag::kSurface | tag::kRequired | tag::kOnRequiredEdge | tag::kCorner | tag::kGiven);
 }
 
 }  // namespace
