@@ -19,18 +19,51 @@ int side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return certainly_positive(a, b, c, d) ? 1 : certainly_positive(b, a, c, d) ? -1 : 0;
 }
 
+/// Whether edge k of a triangle passes through the inside of one that has neither of its ends.
+bool passes(const PlacedTriangle& of, std::size_t k, const PlacedTriangle& t) {
+  const std::size_t next = (k + 1) % 3;
+  for (const VertexId v : t.v)
+    if (v == of.v[k] || v == of.v[next]) return false;
+  const Vec3 &p = of.corners[k], &q = of.corners[next];
+  const auto& [a, b, c] = t.corners;
+  const int above = side(a, b, c, p);
+  if (above == 0 || side(a, b, c, q) != -above) return false;
+  const int turn = side(p, q, a, b);
+  return turn != 0 && side(p, q, b, c) == turn && side(p, q, c, a) == turn;
+}
+
+/// The middle of an edge of one triangle that passes through the other, if there is any.
+std::optional<Vec3> crossing_of(const PlacedTriangle& a, const PlacedTriangle& b) {
+  int common = 0;
+  for (const VertexId v : a.v) common += int(std::ranges::count(b.v, v));
+  if (common > 1) return {};  // no edge has neither of them
+  for (const auto& [through, of] : {std::pair(&a, &b), std::pair(&b, &a)})
+    for (std::size_t k = 0; k < 3; ++k)
+      if (passes(*of, k, *through)) return (of->corners[k] + of->corners[(k + 1) % 3]) / 2;
+  return {};
+}
+
+PlacedTriangle placed(const TetMesh& mesh, const Triangle& t) {
+  return {t.v, {mesh.points[t.v[0]], mesh.points[t.v[1]], mesh.points[t.v[2]]}};
+}
+
+bool is_exterior(const Triangle& t) { return t.alive() && t.sides[1].is_unset(); }
+
+Box box_of(const PlacedTriangle& t) {
+  Box box;
+  for (const Vec3& p : t.corners) box.add(p);
+  return box;
+}
+
 class Boundary {
  public:
   explicit Boundary(const TetMesh& mesh) {
     std::vector<Face> faces;
     std::vector<Box> boxes;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const Triangle& s = mesh.triangles[t];
-      if (!s.alive() || !s.sides[1].is_unset()) continue;
-      const Face& f = faces.emplace_back(Face{
-          TriangleId(t), s.v, {mesh.points[s.v[0]], mesh.points[s.v[1]], mesh.points[s.v[2]]}});
-      Box& box = boxes.emplace_back();
-      for (const Vec3& p : f.corner) box.add(p);
+      if (!is_exterior(mesh.triangles[t])) continue;
+      faces.push_back({TriangleId(t), placed(mesh, mesh.triangles[t])});
+      boxes.push_back(box_of(faces.back().triangle));
     }
     tree_.emplace(boxes);
     faces_.resize(faces.size()), boxes_.resize(faces.size());
@@ -61,8 +94,7 @@ class Boundary {
  private:
   struct Face {
     TriangleId id;
-    std::array<VertexId, 3> v;
-    std::array<Vec3, 3> corner;
+    PlacedTriangle triangle;
   };
 
   /// Tests the triangles of some slots with all of later slots.
@@ -79,27 +111,8 @@ class Boundary {
   void test(std::size_t i, std::size_t j, std::vector<Crossing>& found) const {
     const bool in_order = faces_[i].id < faces_[j].id;
     const Face &a = faces_[in_order ? i : j], &b = faces_[in_order ? j : i];
-    int common = 0;
-    for (const VertexId v : a.v) common += int(std::ranges::count(b.v, v));
-    if (common > 1) return;  // no edge has neither of them
-    for (const auto& [through, of] : {std::pair(&a, &b), std::pair(&b, &a)})
-      for (int k = 0; k < 3; ++k) {
-        if (!passes(*of, k, *through)) continue;
-        found.push_back({a.id, b.id, (of->corner[k] + of->corner[(k + 1) % 3]) / 2});
-        return;
-      }
-  }
-
-  /// Whether an edge passes through the inside of a triangle that has neither of its ends.
-  static bool passes(const Face& of, int k, const Face& t) {
-    for (const VertexId v : t.v)
-      if (v == of.v[k] || v == of.v[(k + 1) % 3]) return false;
-    const Vec3 &p = of.corner[k], &q = of.corner[(k + 1) % 3];
-    const auto& [a, b, c] = t.corner;
-    const int above = side(a, b, c, p);
-    if (above == 0 || side(a, b, c, q) != -above) return false;
-    const int turn = side(p, q, a, b);
-    return turn != 0 && side(p, q, b, c) == turn && side(p, q, c, a) == turn;
+    if (const auto where = crossing_of(a.triangle, b.triangle))
+      found.push_back({a.id, b.id, *where});
   }
 
   std::vector<Face> faces_;  ///< in the order of the slots
@@ -110,5 +123,30 @@ class Boundary {
 }  // namespace
 
 std::vector<Crossing> find_crossings(const TetMesh& mesh) { return Boundary(mesh).crossings(); }
+
+bool would_cross(const TetMesh& mesh, std::span<const PlacedTriangle> triangles,
+                 std::span<const TriangleId> replaced) {
+  Box around;
+  std::vector<Box> boxes;
+  for (const PlacedTriangle& t : triangles) {
+    boxes.push_back(box_of(t));
+    for (const Vec3& p : t.corners) around.add(p);
+  }
+  const auto crosses = [&](const PlacedTriangle& other, std::size_t count) {
+    const Box box = box_of(other);
+    if (!box.overlaps(around)) return false;
+    for (std::size_t i = 0; i < count; ++i)
+      if (boxes[i].overlaps(box) && crossing_of(triangles[i], other)) return true;
+    return false;
+  };
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (crosses(triangles[i], i)) return true;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (is_exterior(mesh.triangles[t]) &&
+        std::ranges::find(replaced, TriangleId(t)) == replaced.end() &&
+        crosses(placed(mesh, mesh.triangles[t]), triangles.size()))
+      return true;
+  return false;
+}
 
 }  // namespace cavea

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "cavea/base/parallel.h"
 #include "cavea/mesh/build.h"
 #include "support/meshes.h"
@@ -40,6 +42,41 @@ TEST(Crossings, FindsSheetsThatPassThroughEachOther) {
     EXPECT_GT(c.where.x, 0.5);
     EXPECT_LT(c.where.x, 1.5);
   }
+}
+
+/// A surface triangle with its corners moved.
+PlacedTriangle moved(const TetMesh& mesh, TriangleId t, const Vec3& by) {
+  PlacedTriangle placed{mesh.triangles[t].v, {}};
+  for (std::size_t k = 0; k < 3; ++k) placed.corners[k] = mesh.points[placed.v[k]] + by;
+  return placed;
+}
+
+TEST(Crossings, OfATriangleThatIsNotThereYet) {
+  const TetMesh mesh = two_cubes(0.1);
+  int to_the_other = 0, to_nowhere = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::array replaced = {TriangleId(t)};
+    const auto crosses = [&](const Vec3& by) {
+      // Of new vertices: else it only touches its own neighbours.
+      PlacedTriangle placed = moved(mesh, TriangleId(t), by);
+      for (VertexId& v : placed.v) v += VertexId(mesh.points.size());
+      return would_cross(mesh, {&placed, 1}, replaced);
+    };
+    to_the_other += crosses({0.3, 0.01, 0.01});
+    to_nowhere += crosses({0, 0, 100});
+  }
+  EXPECT_GT(to_the_other, 0);
+  EXPECT_EQ(to_nowhere, 0);
+}
+
+TEST(Crossings, NotWithWhatIsReplacedButWithEachOther) {
+  const TetMesh mesh = two_cubes(0.1);
+  PlacedTriangle a{{1000, 1001, 1002}, {{{5, 0, 0}, {6, 0, 0}, {5, 1, 0}}}};
+  PlacedTriangle b{{1003, 1004, 1005}, {{{5.2, 0.2, -1}, {5.3, 0.2, 1}, {5.2, 0.9, 1}}}};
+  EXPECT_FALSE(would_cross(mesh, std::array{a}, {}));
+  EXPECT_TRUE(would_cross(mesh, std::array{a, b}, {}));
+  b.v[0] = a.v[0], b.v[1] = a.v[1];  // no edge of one has neither of its ends on the other
+  EXPECT_FALSE(would_cross(mesh, std::array{a, b}, {}));
 }
 
 TEST(Crossings, TheSameAtAnyNumberOfThreads) {
