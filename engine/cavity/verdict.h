@@ -36,14 +36,15 @@ enum class Operator : std::uint8_t {
   kEdgeStar,
   kReconnect,
   kVertexInsert,
-  kSurfaceInsert
+  kSurfaceInsert,
+  kSurfaceMerge
 };
-inline constexpr int kOperators = 9;
+inline constexpr int kOperators = 10;
 
 inline const char* name(Operator o) {
   constexpr std::array<const char*, kOperators> kNames = {
-      "edge_split", "edge_collapse", "edge_swap",     "face_swap",     "relocate",
-      "edge_star",  "reconnect",     "vertex_insert", "surface_insert"};
+      "edge_split", "edge_collapse", "edge_swap",     "face_swap",      "relocate",
+      "edge_star",  "reconnect",     "vertex_insert", "surface_insert", "surface_merge"};
   return kNames[static_cast<std::size_t>(o)];
 }
 

@@ -35,6 +35,8 @@ struct Limits {
   double quality_floor = 0.3;
   /// Share of the surface model's tolerance that the samples of surface triangles may use up.
   double tolerance_share = 1;
+  /// All of hausd may be used up beside slits, too: who asks looks for crossings.
+  bool bridges_slits = false;
   /// Poor tets with two faces on a smooth surface may be taken off it.
   bool ears_go = false;
   bool surface_frozen = false;  ///< no surface triangle or vertex of one is touched
@@ -69,7 +71,8 @@ struct OperatorContext {
   }
   /// Squared distance from the ideal surface that is allowed at an anchor.
   double tolerance2(const Anchor& anchor) const {
-    const double t = limits.tolerance_share * surface.tolerance(anchor);
+    const double t = limits.tolerance_share *
+                     (limits.bridges_slits ? surface.hausd(anchor) : surface.tolerance(anchor));
     return t * t;
   }
   /// Edge that belongs to the interface of the part, or to a required edge or tet.

@@ -226,13 +226,19 @@ Anchor SurfaceModel::anchor_of(std::int32_t v) const {
 }
 
 double SurfaceModel::tolerance(const Anchor& anchor) const {
+  return least_at(anchor, facet_tolerance_);
+}
+
+double SurfaceModel::hausd(const Anchor& anchor) const { return least_at(anchor, facet_hausd_); }
+
+/// The least of what the facets at an anchor have.
+double SurfaceModel::least_at(const Anchor& anchor, const std::vector<double>& of_facet) const {
   if (anchor.facet == kNone) return settings_.tolerance;
-  if (!is_curve(anchor)) return facet_tolerance_[anchor.facet];
-  const CurveEdge& c = curves_[-2 - anchor.facet];
-  double smallest = facet_tolerance_[curve_facets_[c.first_facet]];
-  for (int i = 1; i < c.facet_count; ++i)
-    smallest = std::min(smallest, facet_tolerance_[curve_facets_[c.first_facet + i]]);
-  return smallest;
+  if (!is_curve(anchor)) return of_facet[std::size_t(anchor.facet)];
+  double least = kEndless;
+  for (const std::int32_t f : facets_at_curve(curve_of(anchor.facet)))
+    least = std::min(least, of_facet[std::size_t(f)]);
+  return least;
 }
 
 /// The smallest tolerance that sizes follow from of the facets at a vertex.

@@ -63,6 +63,7 @@ class SurfaceModel {
   double max_bulge() const { return settings_.max_bulge; }
   /// hausd at a facet, by its reference.
   double hausd(std::int32_t facet) const { return facet_hausd_[std::size_t(facet)]; }
+  double hausd(const Anchor& anchor) const;
 
   /// Size wanted at an anchor for the sake of the curvature (paper, section 4.2) and of thin walls,
   /// in [hmin, hmax].
@@ -143,6 +144,7 @@ class SurfaceModel {
   std::vector<double> curvatures() const;
   double averaged(const std::vector<double>& kappas, std::int32_t v) const;
   double hausd_of(std::int32_t reference) const;
+  double least_at(const Anchor& anchor, const std::vector<double>& of_facet) const;
   double size_tolerance(std::int32_t facet) const {
     return facet_at_slit_[facet] ? facet_hausd_[facet] : facet_tolerance_[facet];
   }

@@ -4,6 +4,7 @@
 
 #include "cavea/mesh/statistics.h"
 #include "cavea/operator/surface_insert.h"
+#include "cavea/operator/surface_merge.h"
 #include "cavea/operator/vertex_insert.h"
 #include "operator/stage.h"
 
@@ -65,6 +66,13 @@ bool insert_in_the_middle(Stage& stage, const Item& item) {
          commit_if(stage, Verdict::kAccept);
 }
 
+/// The second end of an edge to the first.
+bool merge_features(Stage& s, const Item& e) {
+  if (!s.mesh.vertex_alive(e[0]) || !s.mesh.vertex_alive(e[1])) return false;
+  const Junction junction{{e[0], e[1]}, {}, s.mesh.points[e[0]]};
+  return commit_if(s, surface_merge(s.context, junction, 0.3, s.editor.next_vertex(), s.cavity));
+}
+
 const Action kActions[] = {
     {Operator::kEdgeSplit, edges_of,
      [](Stage& s, const Item& e) { return s.find_edge(e[0], e[1]) && commit_if(s, s.split()); }},
@@ -94,6 +102,7 @@ const Action kActions[] = {
        if (!s.find_edge(e[0], e[1])) return false;
        return commit_if(s, SurfaceInsert(s.context)(s.editor.next_vertex(), s.cavity));
      }},
+    {Operator::kSurfaceMerge, edges_of, merge_features},
 };
 
 const Action& action(Operator op) { return kActions[std::size_t(op)]; }
@@ -132,6 +141,7 @@ TEST_P(Operators, KeepTheMeshSoundAndTheDomainAsItIs) {
   SCOPED_TRACE(testing::Message() << name(op) << " on " << subject.name << ", seed " << kSeed);
   Stage stage(subject.data);
   const Shape shape(stage.mesh);
+  const Euler before = euler(stage.mesh);
   if (op != Operator::kEdgeSplit && op != Operator::kEdgeCollapse) spoil(stage, kSeed);
   const std::int64_t stride = kSanitized ? 50 : 5;
   std::int64_t commits = 0;
@@ -141,7 +151,9 @@ TEST_P(Operators, KeepTheMeshSoundAndTheDomainAsItIs) {
   EXPECT_GT(done, 0);
   expect_sound(stage.mesh);
   EXPECT_EQ(count(stage.mesh).tets, stage.editor.living_tets());
-  if (subject.polyhedral)
+  if (op == Operator::kSurfaceMerge)  // makes corners, and moves the surface within its tolerance
+    EXPECT_EQ(euler(stage.mesh), before);
+  else if (subject.polyhedral)
     shape.expect_polyhedron(stage.mesh);
   else
     shape.expect_topology_of(stage.mesh);

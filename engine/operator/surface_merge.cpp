@@ -1,0 +1,376 @@
+#include "cavea/operator/surface_merge.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "cavea/geometry/closest.h"
+#include "cavea/operator/refit.h"
+
+namespace cavea {
+namespace {
+
+/// Edges may become this many times too long.
+constexpr double kRelaxedLong = 1.4;
+
+/// What closes a strip from one end leaves a tip at the next, as bad as what was there.
+constexpr double kAboutAsGood = 0.9;
+
+/// What must have nothing of this.
+constexpr Tag kStays = tag::kRequired | tag::kOnRequiredEdge | tag::kNonManifold | tag::kGiven;
+
+using Ends = std::array<VertexId, 2>;
+
+template <class T>
+void keep_once(std::vector<T>& all) {
+  std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
+}
+
+template <class T>
+bool is_in(const std::vector<T>& sorted, const T& item) {
+  return std::ranges::binary_search(sorted, item);
+}
+
+/// What goes with the vertices and edges of a junction.
+class Merge {
+ public:
+  Merge(OperatorContext& c, const Junction& j, double sound, VertexId m)
+      : c_(c), j_(j), sound_(sound), m_(m) {}
+
+  Verdict gather() {
+    if (c_.limits.surface_frozen) return Verdict::kBreaksFeature;
+    for (const VertexId v : j_.vertices)
+      if (const Verdict verdict = gather_vertex(v); verdict != Verdict::kAccept) return verdict;
+    for (const SurfaceSide& e : j_.edges)
+      if (const Verdict verdict = gather_edge(e); verdict != Verdict::kAccept) return verdict;
+    keep_once(tets_);
+    keep_once(triangles_);
+    for (const TetId t : tets_)
+      if (c_.mesh.tet_flags[t] & tet_flag::kRequired) return Verdict::kBreaksFeature;
+    for (const TriangleId t : triangles_)
+      if (c_.mesh.triangles[t].tags & tag::kRequired) return Verdict::kBreaksFeature;
+    return gather_sides();
+  }
+
+  Verdict fill(Cavity& cavity) {
+    cavity.removed_tets = tets_;
+    cavity.removed_triangles = triangles_;
+    cavity.removed_vertices = j_.vertices;
+    make_vertex(cavity);
+    if (const Verdict v = star_tets(cavity); v != Verdict::kAccept) return v;
+    if (makes_long_edge(cavity.vertex)) return Verdict::kBadLength;
+    star_triangles(cavity);
+    if (!keeps_references(cavity)) return Verdict::kBreaksFeature;
+    std::vector<Anchor> hints;
+    for (const VertexId v : j_.vertices) hints.push_back(c_.mesh.anchors[v]);
+    return check_refit(c_, cavity, m_, hints);
+  }
+
+ private:
+  /// An edge of a triangle that goes, smaller end first.
+  struct Side {
+    Ends ends;
+    TriangleId triangle;
+    std::size_t k;
+
+    std::tuple<VertexId, VertexId, TriangleId> key() const { return {ends[0], ends[1], triangle}; }
+  };
+  struct Spoke {
+    VertexId end = kNone;
+    Tag tags = 0;
+    std::int32_t ref = 0;
+    int features = 0;
+  };
+
+  Verdict gather_vertex(VertexId v) {
+    const Tag tags = c_.tags(v);
+    if (tags & tag::kFrozen) return Verdict::kFrozen;
+    if (tags & tag::kPinched) return Verdict::kBreaksTopology;
+    if (!(tags & tag::kSurface)) return Verdict::kNotNeeded;
+    if (tags & kStays) return Verdict::kBreaksFeature;
+    gather_ball(c_.mesh, v, c_.marker, c_.ball);
+    if (c_.ball.cut) return Verdict::kFrozen;
+    tets_.insert(tets_.end(), c_.ball.tets.begin(), c_.ball.tets.end());
+    for_each_triangle(c_.mesh, c_.ball, [&](TriangleId t) { triangles_.push_back(t); });
+    return Verdict::kAccept;
+  }
+
+  Verdict gather_edge(const SurfaceSide& e) {
+    const Triangle& t = c_.mesh.triangles[e.triangle];
+    const Tag tags = t.edge_tag[e.k];
+    if (!(tags & tag::kFeature)) return Verdict::kNotNeeded;
+    if (tags & (kStays | tag::kPinched)) return Verdict::kBreaksFeature;
+    const TetId tet = t.sides[0].tet();
+    gather_shell(c_.mesh, tet, c_.mesh.local_index(tet, t.v[(e.k + 1) % 3]),
+                 c_.mesh.local_index(tet, t.v[(e.k + 2) % 3]), c_.shell);
+    if (c_.shell.cut || c_.frozen_edge(c_.shell.p, c_.shell.q)) return Verdict::kFrozen;
+    tets_.insert(tets_.end(), c_.shell.tets.begin(), c_.shell.tets.end());
+    for (const Shell::At& at : c_.shell.triangles) triangles_.push_back(at.triangle);
+    return Verdict::kAccept;
+  }
+
+  /// The rim of the triangles that go, and what comes from it to the new vertex. They must be a
+  /// disk: what else comes near would be pinched.
+  Verdict gather_sides() {
+    std::vector<Side> sides;
+    for (const TriangleId t : triangles_)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto& v = c_.mesh.triangles[t].v;
+        const auto [a, b] = std::minmax(v[(k + 1) % 3], v[(k + 2) % 3]);
+        sides.push_back({{a, b}, t, k});
+      }
+    std::ranges::sort(sides, {}, &Side::key);
+    int inner = 0;
+    for (std::size_t i = 0; i < sides.size();) {
+      std::size_t end = i + 1;
+      while (end < sides.size() && sides[end].ends == sides[i].ends) ++end;
+      if (end - i == 1) {
+        rim_.push_back(sides[i]);
+      } else {
+        if (end - i > 2 || !add_spokes(sides[i])) return Verdict::kBreaksFeature;
+        ++inner;
+      }
+      i = end;
+    }
+    if (int(triangles_.size()) - inner + int(j_.vertices.size()) != 1 || !is_simple_rim())
+      return Verdict::kBreaksTopology;
+    // A curve that ended in itself.
+    const auto is_left_over = [&](const Spoke& s) {
+      return s.features > 1 && !(c_.tags(s.end) & tag::kCorner);
+    };
+    return std::ranges::any_of(spokes_, is_left_over) ? Verdict::kBreaksFeature : Verdict::kAccept;
+  }
+
+  bool is_simple_rim() const {
+    std::vector<VertexId> ends;
+    for (const Side& side : rim_) ends.insert(ends.end(), side.ends.begin(), side.ends.end());
+    std::ranges::sort(ends);
+    for (std::size_t i = 0; i < ends.size(); i += 2)
+      if (i + 1 == ends.size() || ends[i] != ends[i + 1] ||
+          (i + 2 < ends.size() && ends[i] == ends[i + 2]) || is_vertex(ends[i]))
+        return false;
+    return true;
+  }
+
+  bool is_vertex(VertexId v) const {
+    return std::ranges::find(j_.vertices, v) != j_.vertices.end();
+  }
+
+  bool add_spokes(const Side& side) {
+    const Triangle& t = c_.mesh.triangles[side.triangle];
+    const Tag tags = t.edge_tag[side.k];
+    if (tags & (kStays | tag::kPinched)) return false;
+    for (const VertexId end : side.ends) {
+      if (is_vertex(end)) continue;
+      Spoke& spoke = spoke_to(end);
+      spoke.tags |= tags;
+      spoke.features += (tags & tag::kFeature) != 0;
+      if (t.edge_ref[side.k] != 0) spoke.ref = t.edge_ref[side.k];
+    }
+    return true;
+  }
+
+  Spoke& spoke_to(VertexId end) {
+    const auto at = std::ranges::find(spokes_, end, &Spoke::end);
+    return at != spokes_.end() ? *at : spokes_.emplace_back(Spoke{end});
+  }
+
+  void make_vertex(Cavity& cavity) {
+    float size = std::numeric_limits<float>::max();
+    Anchor near;
+    double nearest2 = std::numeric_limits<double>::infinity();
+    for (const VertexId v : j_.vertices) {
+      size = std::min(size, c_.mesh.sizes[v]);
+      if (const double d2 = distance2(c_.point(v), j_.place); d2 < nearest2)
+        nearest2 = d2, near = c_.mesh.anchors[v];
+    }
+    for (const SurfaceSide& e : j_.edges) {
+      const Triangle& t = c_.mesh.triangles[e.triangle];
+      std::array<Anchor, 3> hints;
+      for (std::size_t k = 0; k < 3; ++k) {
+        hints[k] = c_.mesh.anchors[t.v[k]];
+        if (k != e.k) size = std::min(size, c_.mesh.sizes[t.v[k]]);
+      }
+      if (j_.vertices.empty()) near = c_.surface.place(j_.place, t.patch, hints).anchor;
+    }
+    cavity.inserts_vertex = true;
+    cavity.vertex = {j_.place, size, vertex_tags(), 0, near};
+  }
+
+  /// A corner on curves, lest it goes farther from where they were, unless it leaves them there.
+  Tag vertex_tags() const {
+    Tag tags = tag::kSurface;
+    for (const Spoke& s : spokes_) tags |= s.tags & tag::kOnCurve;
+    const auto is_corner = [&](VertexId v) { return (c_.tags(v) & tag::kCorner) != 0; };
+    if (std::ranges::any_of(j_.vertices, is_corner)) return tags | tag::kCorner;
+    if (tags & tag::kOnCurve) return is_along_curve() ? tags : Tag(tags | tag::kCorner);
+    return tags | tag::kOffSurface;
+  }
+
+  /// Whether the new vertex has two edges of a curve, and leaves all curves that came to what it
+  /// replaces where they were.
+  bool is_along_curve() const {
+    const auto is_feature = [](const Spoke& s) { return (s.tags & tag::kFeature) != 0; };
+    if (std::ranges::count_if(spokes_, is_feature) != 2) return false;
+    const auto is_on_new = [&](VertexId v) {
+      return std::ranges::any_of(spokes_, [&](const Spoke& s) {
+        return is_feature(s) && is_on(c_.point(v), j_.place, c_.point(s.end));
+      });
+    };
+    const auto is_on_old = [&](const SurfaceSide& e) {
+      const auto& v = c_.mesh.triangles[e.triangle].v;
+      return is_on(j_.place, c_.point(v[(e.k + 1) % 3]), c_.point(v[(e.k + 2) % 3]));
+    };
+    return std::ranges::all_of(j_.edges, is_on_old) &&
+           std::ranges::all_of(j_.vertices, [&](VertexId v) {
+             return !(c_.tags(v) & tag::kOnCurve) || is_on_new(v);
+           });
+  }
+
+  static bool is_on(const Vec3& p, const Vec3& a, const Vec3& b) {
+    constexpr double kExact2 = 1e-18;  // of squared distances: rounding
+    return closest_on_segment(p, a, b).distance2 <= kExact2 * distance2(a, b);
+  }
+
+  bool goes(TetId t) const { return is_in(tets_, t); }
+  bool goes(FaceLink link) const {
+    return link.is_triangle() && is_in(triangles_, link.triangle());
+  }
+
+  /// On each face of the hole but those of triangles that go. The hole must be a ball.
+  Verdict star_tets(Cavity& cavity) {
+    std::vector<Ends> edges;
+    for (const TetId t : tets_)
+      for (int f = 0; f < 4; ++f) {
+        const FaceLink link = c_.mesh.links[t][f], behind = c_.mesh.across(t, f);
+        const bool is_inner = behind.is_tet() && goes(behind.tet());
+        if (is_inner && link.is_triangle() && !goes(link)) return Verdict::kBreaksTopology;
+        if (is_inner) continue;
+        add_edges(t, f, edges);
+        if (goes(link)) {
+          if (behind.is_tet()) return Verdict::kBreaksTopology;
+          continue;
+        }
+        NewTet n{c_.mesh.tets[t], c_.mesh.tet_refs[t]};
+        std::array<Vec3, 4> x = c_.mesh.corners(t);
+        n.v[std::size_t(f)] = m_, x[std::size_t(f)] = j_.place;
+        const double quality = tet_quality(x[0], x[1], x[2], x[3]);
+        if (quality < kFlat) return Verdict::kInverted;
+        n.quality = float(quality);
+        cavity.tets.push_back(n);
+      }
+    if (!is_gain(cavity)) return Verdict::kWorseQuality;
+    return drop_swallowed(vertices_of_sphere(std::move(edges)), cavity);
+  }
+
+  /// Vertices inside of which all tets go.
+  Verdict drop_swallowed(const std::vector<VertexId>& hull, Cavity& cavity) const {
+    if (hull.empty()) return Verdict::kBreaksTopology;
+    std::vector<VertexId> all;
+    for (const TetId t : tets_)
+      all.insert(all.end(), c_.mesh.tets[t].begin(), c_.mesh.tets[t].end());
+    keep_once(all);
+    for (const VertexId v : all) {
+      if (is_in(hull, v) || is_vertex(v)) continue;
+      if (c_.tags(v) & (tag::kSurface | kStays)) return Verdict::kBreaksTopology;
+      cavity.removed_vertices.push_back(v);
+    }
+    return Verdict::kAccept;
+  }
+
+  bool is_gain(const Cavity& cavity) const {
+    double before = 1, after = 1;
+    std::size_t unsound_before = 0, unsound_after = 0;
+    for (const TetId t : tets_) add(c_.mesh.qualities[t], before, unsound_before);
+    for (const NewTet& n : cavity.tets) add(n.quality, after, unsound_after);
+    if (after >= kQualityGain * before) return true;
+    return j_.vertices.size() > 1 && unsound_after < unsound_before &&
+           after >= kAboutAsGood * before;
+  }
+  void add(double quality, double& worst, std::size_t& unsound) const {
+    worst = std::min(worst, quality);
+    unsound += quality < sound_;
+  }
+
+  void add_edges(TetId t, int f, std::vector<Ends>& edges) const {
+    for (int k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(c_.mesh.tets[t][kFaceVertices[f][k]],
+                                      c_.mesh.tets[t][kFaceVertices[f][(k + 1) % 3]]);
+      edges.push_back({a, b});
+    }
+  }
+
+  /// The vertices of closed faces with these edges, each of which they have once; none where they
+  /// are no sphere.
+  static std::vector<VertexId> vertices_of_sphere(std::vector<Ends> edges) {
+    const std::size_t sides = edges.size();
+    keep_once(edges);
+    std::vector<VertexId> vertices;
+    for (const Ends& e : edges) vertices.insert(vertices.end(), e.begin(), e.end());
+    keep_once(vertices);
+    const bool is_sphere =
+        2 * edges.size() == sides && vertices.size() + sides / 3 == edges.size() + 2;
+    return is_sphere ? vertices : std::vector<VertexId>{};
+  }
+
+  bool makes_long_edge(const NewVertex& vertex) const {
+    const double limit = kRelaxedLong * c_.limits.long_edge;
+    return std::ranges::any_of(tets_, [&](TetId t) {
+      return std::ranges::any_of(c_.mesh.tets[t], [&](VertexId v) {
+        return !is_vertex(v) && length_exceeds(distance2(vertex.point, c_.point(v)), vertex.size,
+                                               c_.mesh.sizes[v], limit);
+      });
+    });
+  }
+
+  /// Whether what goes has left some of each reference that it had.
+  bool keeps_references(const Cavity& cavity) const {
+    std::vector<std::int32_t> tets, triangles, edges;
+    for (const NewTet& n : cavity.tets) tets.push_back(n.ref);
+    for (const Triangle& t : cavity.triangles) {
+      triangles.push_back(t.ref);
+      edges.insert(edges.end(), t.edge_ref.begin(), t.edge_ref.end());
+    }
+    for (std::vector<std::int32_t>* refs : {&tets, &triangles, &edges}) keep_once(*refs);
+    const auto is_edge_kept = [&](std::int32_t ref) { return ref == 0 || is_in(edges, ref); };
+    return std::ranges::all_of(tets_, [&](TetId t) { return is_in(tets, c_.mesh.tet_refs[t]); }) &&
+           std::ranges::all_of(triangles_, [&](TriangleId id) {
+             const Triangle& t = c_.mesh.triangles[id];
+             return is_in(triangles, t.ref) && std::ranges::all_of(t.edge_ref, is_edge_kept);
+           });
+  }
+
+  void star_triangles(Cavity& cavity) {
+    for (const Side& side : rim_) {
+      Triangle t = c_.mesh.triangles[side.triangle];
+      t.v[side.k] = m_;
+      for (const std::size_t k : {(side.k + 1) % 3, (side.k + 2) % 3}) {
+        // Opposite one end of the rim runs the edge from the new vertex to the other.
+        const Spoke& spoke = spoke_to(t.v[3 - side.k - k]);
+        t.edge_tag[k] = spoke.tags, t.edge_ref[k] = spoke.ref;
+      }
+      cavity.triangles.push_back(t);
+    }
+  }
+
+  OperatorContext& c_;
+  const Junction& j_;
+  double sound_;
+  VertexId m_;
+  std::vector<TetId> tets_;
+  std::vector<TriangleId> triangles_;
+  std::vector<Side> rim_;
+  std::vector<Spoke> spokes_;
+};
+
+}  // namespace
+
+Verdict surface_merge(OperatorContext& c, const Junction& junction, double sound,
+                      VertexId vertex_id, Cavity& cavity) {
+  cavity.clear();
+  Merge merge(c, junction, sound, vertex_id);
+  if (const Verdict v = merge.gather(); v != Verdict::kAccept) return v;
+  return merge.fill(cavity);
+}
+
+}  // namespace cavea
