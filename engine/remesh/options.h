@@ -28,6 +28,9 @@ struct Freezes {
   /// The surface, exterior and interfaces, stays to the bit: it is then the truth, and the lengths
   /// of its edges are the sizes wanted there.
   bool surface = false;
+  /// What of the surface is nearer to each other than the tolerance is not joined, whatever tets
+  /// that leaves.
+  bool join = false;
 
   bool any_operator() const { return insert || collapse || swap || move; }
 };

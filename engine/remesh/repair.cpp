@@ -6,6 +6,7 @@
 
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/mending.h"
+#include "cavea/remesh/joining.h"
 #include "cavea/remesh/rounds.h"
 #include "cavea/remesh/standing.h"
 
@@ -93,11 +94,13 @@ SurfaceDistance measure_and_repair(Job& job) {
     }
   };
   repair_all();
-  if (repairs == 0 || count_poor(job.mesh) == 0) return distance;
-  // Repairs may leave poor tets as phases do, and mending these may move the surface.
-  mend_poor(job);
-  distance = finish_and_measure(job);
-  repair_all();
+  if (repairs > 0 && count_poor(job.mesh) > 0) {
+    // Repairs may leave poor tets as phases do, and mending these may move the surface.
+    mend_poor(job);
+    distance = finish_and_measure(job);
+    repair_all();
+  }
+  join_surface(job, distance, [&] { return finish_and_measure(job); });
   return distance;
 }
 

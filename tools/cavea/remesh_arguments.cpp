@@ -74,6 +74,8 @@ void add_freeze_flags(CLI::App& command, Freezes& freeze) {
   command.add_flag("--no-move", freeze.move, "Move no vertices");
   command.add_flag("--no-surface", freeze.surface,
                    "Leave the surface as it is; its edges' lengths are the sizes there");
+  command.add_flag("--no-join", freeze.join,
+                   "Do not join what of the surface is nearer to each other than hausd");
 }
 
 void add_target_flags(CLI::App& command, Options& options) {

@@ -13,6 +13,7 @@ Json frozen_json(const Freezes& freeze) {
   add(freeze.swap, "swap");
   add(freeze.move, "move");
   add(freeze.surface, "surface");
+  add(freeze.join, "join");
   return frozen;
 }
 

@@ -1,0 +1,119 @@
+#include "cavea/remesh/joiner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cavea/base/ids_where.h"
+#include "cavea/remesh/recipe.h"
+#include "cavea/remesh/stubborn.h"
+#include "cavea/surface/crossings.h"
+
+namespace cavea {
+
+std::vector<TetId> unsound_tets(const TetMesh& mesh) {
+  std::vector<TetId> tets =
+      ids_where(mesh.tets.size(), [&](std::size_t t) { return mesh.qualities[t] < kSoundQuality; });
+  std::ranges::sort(tets, {}, [&](TetId t) { return std::pair(mesh.qualities[t], t); });
+  return tets;
+}
+
+Joiner::Joiner(Job& job, const std::vector<FailedPlace>& failed)
+    : job_(job),
+      failed_(failed),
+      mesh_(job.mesh),
+      context_(mesh_, job.surface.working_model()),
+      editor_(mesh_) {
+  context_.limits = last_phase(job.r).cycle.limits;
+  context_.limits.bridges_slits = true;
+}
+
+std::int64_t Joiner::run(const std::function<void()>& before_first) {
+  before_first_ = before_first;
+  std::vector<TetId> queue = unsound_tets(mesh_);
+  const auto is_unsound = [&](TetId t) {
+    return mesh_.tet_alive(t) && mesh_.qualities[t] < kSoundQuality;
+  };
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    if (!is_unsound(queue[i]) || !join_at(queue[i])) continue;
+    for (const TetId t : editor_.created())
+      if (is_unsound(t)) queue.push_back(t);
+  }
+  return joined_;
+}
+
+bool Joiner::join_at(TetId t) {
+  return join_best(junctions_of_vertices(mesh_, t)) ||
+         join_best(junctions_in_triangles(context_, t));
+}
+
+/// Commits the one after which the worst tet is best.
+bool Joiner::join_best(const std::vector<Junction>& junctions) {
+  std::vector<Candidate> found;
+  for (const Junction& j : junctions)
+    if (const std::optional<double> moved = displacement(j)) add_candidate(j, *moved, found);
+  std::ranges::stable_sort(found, std::greater<>(), &Candidate::worst);
+  const auto best =
+      std::ranges::find_if(found, [&](const Candidate& c) { return !crosses(c.cavity); });
+  if (best == found.end()) return false;
+  commit(*best);
+  return true;
+}
+
+/// Of the tolerance, that may be used there.
+double Joiner::share_at(const Vec3& place) const {
+  constexpr double kLess = 0.75;
+  double share = 1;
+  for (const FailedPlace& f : failed_)
+    if (distance(place, f.center) < f.radius) share *= kLess;
+  return share;
+}
+
+/// The largest of what is moved, with what it was moved before; none if that is too far.
+std::optional<double> Joiner::displacement(const Junction& junction) const {
+  double farthest = 0;
+  const double share = share_at(junction.place);
+  for (const Moved& m : moved_by(mesh_, junction)) {
+    const auto at = moved_.find(m.vertex);
+    const double all = m.distance + (at == moved_.end() ? 0 : at->second);
+    if (all > share * std::sqrt(context_.tolerance2(mesh_.anchors[m.vertex]))) return {};
+    farthest = std::max(farthest, all);
+  }
+  return farthest;
+}
+
+void Joiner::add_candidate(const Junction& junction, double moved, std::vector<Candidate>& found) {
+  Candidate c{{}, 1, moved};
+  const Verdict v =
+      surface_merge(context_, junction, kSoundQuality, editor_.next_vertex(), c.cavity);
+  job_.verdicts.add(Operator::kSurfaceMerge, v);
+  if (v != Verdict::kAccept) return;
+  for (const NewTet& n : c.cavity.tets) c.worst = std::min(c.worst, double(n.quality));
+  found.push_back(std::move(c));
+}
+
+/// Beside slits, too, all of the tolerance is used up.
+bool Joiner::crosses(const Cavity& cavity) const {
+  std::vector<PlacedTriangle> placed;
+  for (const Triangle& t : cavity.triangles) {
+    if (t.sides[1].is_tet()) continue;  // inside
+    PlacedTriangle& p = placed.emplace_back(PlacedTriangle{t.v, {}});
+    for (std::size_t k = 0; k < 3; ++k)
+      p.corners[k] = t.v[k] == editor_.next_vertex() ? cavity.vertex.point : mesh_.points[t.v[k]];
+  }
+  return would_cross(mesh_, placed, cavity.removed_triangles);
+}
+
+void Joiner::commit(const Candidate& candidate) {
+  if (joined_++ == 0) before_first_();
+  const Cavity& cavity = candidate.cavity;
+  const VertexId v = editor_.next_vertex();
+  editor_.commit(cavity);
+  std::vector<std::int32_t>& parts = job_.report.part_of_tet;
+  if (!parts.empty())
+    parts.resize(mesh_.tets.size(), parts[std::size_t(cavity.removed_tets.front())]);
+  for (const VertexId gone : cavity.removed_vertices) moved_.erase(gone);
+  moved_[v] = candidate.moved;
+}
+
+}  // namespace cavea

@@ -1,0 +1,58 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "cavea/cavity/mesh_editor.h"
+#include "cavea/remesh/job.h"
+#include "cavea/remesh/junctions.h"
+
+namespace cavea {
+
+/// Where less of the tolerance is to be used, since that has failed.
+struct FailedPlace {
+  Vec3 center;
+  double radius = 0;
+};
+
+/// Joins parts of the surface at tets that are not sound, the worst first: few, one after the
+/// other. The mesh may have holes then.
+class Joiner {
+ public:
+  /// \param failed must outlive the joiner
+  Joiner(Job& job, const std::vector<FailedPlace>& failed);
+
+  /// \param before_first is called before the mesh changes, if it does \return how many joined
+  std::int64_t run(const std::function<void()>& before_first);
+
+ private:
+  struct Candidate {
+    Cavity cavity;
+    double worst = 1;
+    double moved = 0;
+  };
+
+  bool join_at(TetId t);
+  bool join_best(const std::vector<Junction>& junctions);
+  double share_at(const Vec3& place) const;
+  std::optional<double> displacement(const Junction& junction) const;
+  void add_candidate(const Junction& junction, double moved, std::vector<Candidate>& found);
+  bool crosses(const Cavity& cavity) const;
+  void commit(const Candidate& candidate);
+
+  Job& job_;
+  const std::vector<FailedPlace>& failed_;
+  TetMesh& mesh_;
+  OperatorContext context_;
+  MeshEditor editor_;
+  std::function<void()> before_first_;
+  std::unordered_map<VertexId, double> moved_;  ///< how far what meets there has been moved
+  std::int64_t joined_ = 0;
+};
+
+/// Tets below kSoundQuality, the worst first.
+std::vector<TetId> unsound_tets(const TetMesh& mesh);
+
+}  // namespace cavea

@@ -1,0 +1,124 @@
+#include "cavea/remesh/joining.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cavea/mesh/fill_holes.h"
+#include "cavea/remesh/asking.h"
+#include "cavea/remesh/joiner.h"
+#include "cavea/remesh/recipe.h"
+#include "cavea/remesh/rounds.h"
+#include "cavea/surface/crossings.h"
+
+namespace cavea {
+namespace {
+
+double worst_quality(const TetMesh& mesh) { return *std::ranges::min_element(mesh.qualities); }
+
+/// What joining and mending change of a job.
+class Before {
+ public:
+  explicit Before(const Job& job)
+      : mesh_(job.mesh),
+        part_of_tet_(job.report.part_of_tet),
+        residual_(job.report.residual),
+        verdicts_(job.verdicts) {}
+
+  void give_back(Job& job) && {
+    job.mesh = std::move(mesh_);
+    job.report.part_of_tet = std::move(part_of_tet_);
+    job.report.residual = residual_;
+    job.verdicts = verdicts_;
+  }
+  const TetMesh& mesh() const { return mesh_; }
+
+ private:
+  TetMesh mesh_;
+  std::vector<std::int32_t> part_of_tet_;
+  ResidualCount residual_;
+  VerdictTable verdicts_;
+};
+
+void keep(const Job& job, std::optional<Before>& before) {
+  if (!before) before.emplace(job);
+}
+
+/// What is left of the poor tets there is mended like all, and may leave more to join.
+void join_and_mend(Job& job, bool surface_frozen, const std::vector<FailedPlace>& failed,
+                   std::optional<Before>& before) {
+  constexpr int kRounds = 5;
+  std::vector<Phase> phases = poor_recipe(job.r);
+  for (Phase& p : phases) p.cycle.limits.surface_frozen |= surface_frozen;
+  for (int round = 0; round < kRounds; ++round) {
+    ask_nothing(job.mesh);
+    if (Joiner(job, failed).run([&] { keep(job, before); }) == 0) return;
+    fill_holes(job.mesh, &job.report.part_of_tet);
+    run_phases(job, phases);
+  }
+}
+
+bool crosses_more(const TetMesh& mesh, const TetMesh& before) {
+  const std::size_t crossings = find_crossings(mesh).size();
+  return crossings > 0 && crossings > find_crossings(before).size();
+}
+
+/// The places that must not be as they are: too far from the ideal surface, or where the surface
+/// passes through itself.
+std::vector<FailedPlace> failures(const TetMesh& mesh, const SurfaceDistance& distance,
+                                  double farthest) {
+  // As far as what a junction changes reaches, about.
+  constexpr double kAround = 2;
+  std::vector<FailedPlace> found;
+  const auto add = [&](const Vec3& where, TriangleId t) {
+    double size = 0;
+    for (const VertexId v : mesh.triangles[std::size_t(t)].v)
+      size = std::max(size, double(mesh.sizes[v]));
+    found.push_back({where, kAround * size});
+  };
+  for (const auto* far : {&distance.far_facets, &distance.far_triangles})
+    for (const FarSample& f : *far)
+      if (f.distance > farthest * f.hausd && f.triangle != kNone) add(f.where, f.triangle);
+  for (const Crossing& c : find_crossings(mesh)) add(c.where, c.a);
+  return found;
+}
+
+/// As long as that fails somewhere, the next trial moves less there.
+void try_joining(Job& job, bool surface_frozen, SurfaceDistance& distance,
+                 const std::function<SurfaceDistance()>& measure) {
+  constexpr int kTrials = 6;
+  const double farthest = std::max(kMeasuredShare, distance.worse().worst);
+  std::vector<FailedPlace> failed;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::optional<Before> before;
+    job.steps.timed("joining", [&] { join_and_mend(job, surface_frozen, failed, before); });
+    if (!before) return;
+    SurfaceDistance after = measure();
+    const std::size_t failed_before = failed.size();
+    if (after.worse().worst > farthest || crosses_more(job.mesh, before->mesh()))
+      std::ranges::copy(failures(job.mesh, after, farthest), std::back_inserter(failed));
+    else if (worst_quality(job.mesh) >= worst_quality(before->mesh()))
+      return void(distance = std::move(after));
+    std::move(*before).give_back(job);
+    if (failed.size() == failed_before) return;  // nobody knows where to do otherwise
+  }
+}
+
+}  // namespace
+
+void join_surface(Job& job, SurfaceDistance& distance,
+                  const std::function<SurfaceDistance()>& measure) {
+  const Freezes& freeze = job.r.freeze;
+  if (job.keeping.stands || freeze.join || freeze.collapse || freeze.insert || freeze.surface)
+    return;
+  // What operators do to the surface beside may add up to too much: then they leave it alone.
+  for (const bool surface_frozen : {false, true}) {
+    if (unsound_tets(job.mesh).empty()) return;
+    job.input.keep(job.mesh);
+    try_joining(job, surface_frozen, distance, measure);
+  }
+}
+
+}  // namespace cavea

@@ -1,0 +1,185 @@
+// Parts of the surface that are nearer to each other than the tolerance, and leave no room for good
+// tets, are joined; what is farther apart, given or required is not.
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "cavea/remesh/junctions.h"
+#include "operator/stage.h"
+#include "remesh/support.h"
+
+namespace cavea::test {
+namespace {
+
+/// The body under a polygon in the plane of x and y, from z = 0 to 1; the polygon as triangles.
+MeshData extruded(const std::vector<std::array<double, 2>>& polygon,
+                  const std::vector<std::array<std::int32_t, 3>>& triangles) {
+  MeshData data;
+  const auto n = std::int32_t(polygon.size());
+  for (const double z : {0.0, 1.0})
+    for (const auto& p : polygon) data.vertices.push_back({p[0], p[1], z});
+  data.vertex_refs.assign(data.vertices.size(), 0);
+  for (std::array<std::int32_t, 3> t : triangles) {
+    // Diagonals rise from the smaller number to the larger, so that prisms fit each other.
+    std::ranges::sort(t);
+    const auto [a, b, c] = t;
+    for (std::array<std::int32_t, 4> tet :
+         {std::array{a, b, c, c + n}, std::array{a, b, b + n, c + n},
+          std::array{a, a + n, b + n, c + n}}) {
+      const auto& x = data.vertices;
+      if (volume6(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]) < 0) std::swap(tet[0], tet[1]);
+      data.tets.push_back(tet);
+    }
+  }
+  data.tet_refs.assign(data.tets.size(), 1);
+  return data;
+}
+
+/// A block with a step of a certain height across its top: two ridges so far from each other.
+MeshData step(double height) {
+  const double low = 0.5, high = 0.5 + height;
+  return extruded({{0, 0}, {1, 0}, {1, low}, {0.5, low}, {0.5, high}, {0, high}},
+                  {{0, 1, 2}, {0, 2, 3}, {3, 4, 5}, {0, 3, 5}});
+}
+
+/// The same, but the step rises from nothing at one end: its ridges meet in a tip there.
+MeshData rising_step(double height) {
+  MeshData data = step(height);
+  std::erase_if(data.tets, [](const auto& t) { return std::ranges::find(t, 4) != t.end(); });
+  data.tet_refs.resize(data.tets.size());
+  data.vertices[5].y = data.vertices[3].y;
+  return data;
+}
+
+constexpr double kHausd = 0.02;
+
+Options options_of(double size) {
+  Options options = uniform(size);
+  options.hausd = kHausd;
+  return options;
+}
+
+std::int64_t joined(const Report& report) {
+  std::int64_t n = 0;
+  for (const VerdictCount& v : report.verdicts)
+    if (v.op == std::string("surface_merge") && v.verdict == std::string("accept")) n += v.count;
+  return n;
+}
+
+Report report_of(const MeshData& data, const Options& options) {
+  TetMesh mesh = built(data);
+  const Report report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  return report;
+}
+
+void expect_joined(const MeshData& data, double size) {
+  const Report report = report_of(data, options_of(size));
+  EXPECT_LT(report.before.quality.worst, 0.3);
+  EXPECT_GT(joined(report), 0);
+  EXPECT_GE(report.after.quality.worst, 0.3);
+  EXPECT_LE(report.surface_distance, kHausd);
+  EXPECT_NEAR(report.after.counts.volume, report.before.counts.volume, kHausd);
+}
+
+TEST(Joining, RidgesNearerThanTheToleranceLeaveGoodTets) { expect_joined(step(0.3 * kHausd), 0.1); }
+
+TEST(Joining, RidgesThatMeetInATipPartWhereTheyAreFarther) { expect_joined(rising_step(0.1), 0.1); }
+
+TEST(Joining, RidgesFartherFromEachOtherStay) {
+  EXPECT_EQ(joined(report_of(step(2.5 * kHausd), options_of(0.1))), 0);
+}
+
+/// The ends of the two ridges of a step, and the others at the ends of the body.
+void list_ridges(MeshData& data) {
+  data.edges = {{3, 9}, {4, 10}};
+  data.edge_refs = {0, 0};
+  data.ridges = {0, 1};
+}
+
+TEST(Joining, GivenRidgesStay) {
+  MeshData data = step(0.3 * kHausd);
+  list_ridges(data);
+  EXPECT_EQ(joined(report_of(data, options_of(0.1))), 0);
+}
+
+TEST(Joining, GivenCornersStay) {
+  MeshData data = rising_step(0.1);
+  data.corners = {3};
+  TetMesh mesh = built(data);
+  remesh(mesh, {}, options_of(0.1));
+  EXPECT_EQ(std::ranges::count(mesh.points, data.vertices[3]), 1);
+}
+
+TEST(Joining, LeavesSomeOfEachReference) {
+  MeshData data = step(0.3 * kHausd);
+  data.triangles = {{3, 9, 10}, {3, 10, 4}};  // the front of the step
+  data.triangle_refs = {7, 7};
+  data.edges = {{4, 10}};
+  data.edge_refs = {3};
+  TetMesh mesh = built(data);
+  const Report report = remesh(mesh, {}, options_of(0.1));
+  expect_sound(mesh);
+  EXPECT_GT(joined(report), 0);
+  EXPECT_TRUE(area_of_ref(mesh).contains(7));
+  EXPECT_TRUE(std::ranges::any_of(mesh.triangles, [](const Triangle& t) {
+    return std::ranges::find(t.edge_ref, 3) != t.edge_ref.end();
+  }));
+}
+
+TEST(Joining, IsNotDoneWhereFrozen) {
+  Freezes collapse, surface, join;
+  collapse.collapse = surface.surface = join.join = true;
+  Options options = options_of(0.1);
+  for (const Freezes& freeze : {collapse, surface, join}) {
+    options.freeze = freeze;
+    EXPECT_EQ(joined(report_of(step(0.3 * kHausd), options)), 0);
+  }
+}
+
+TEST(Joining, IsTheSameAtAnyNumberOfThreads) {
+  TetMesh first = built(step(0.3 * kHausd));
+  remesh(first, {}, options_of(0.05));
+  for (const int threads : {1, 2, 3, 8}) {
+    Options options = options_of(0.05);
+    options.threads = threads;
+    TetMesh mesh = built(step(0.3 * kHausd));
+    EXPECT_GT(joined(remesh(mesh, {}, options)), 0);
+    expect_same(mesh, first);
+  }
+}
+
+/// Whatever is joined, however far: the mesh stays sound, and raises the worst of what goes.
+TEST(Joining, OfAnythingKeepsTheMeshSound) {
+  constexpr std::uint64_t kSeed = 29;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  for (const Subject& subject : subjects()) {
+    SCOPED_TRACE(subject.name);
+    Stage stage(subject.data);
+    stage.context.limits.bridges_slits = true;
+    std::vector<TetId> tets(stage.mesh.tets.size());
+    std::iota(tets.begin(), tets.end(), 0);
+    shuffle(tets, kSeed);
+    const Euler before = euler(stage.mesh);
+    const auto try_all = [&](const std::vector<Junction>& junctions) {
+      for (const Junction& j : junctions) {
+        const VertexId v = stage.editor.next_vertex();
+        if (surface_merge(stage.context, j, 0.9, v, stage.cavity) != Verdict::kAccept) continue;
+        stage.editor.commit(stage.cavity);
+        return true;
+      }
+      return false;
+    };
+    int joined = 0;
+    for (const TetId t : tets)
+      if (stage.mesh.tet_alive(t) &&
+          (try_all(junctions_in_triangles(stage.context, t)) ||
+           (stage.mesh.tet_alive(t) && try_all(junctions_of_vertices(stage.mesh, t)))))
+        if (++joined % 5 == 0) expect_sound(stage.mesh);
+    expect_sound(stage.mesh);
+    EXPECT_EQ(euler(stage.mesh), before);
+  }
+}
+
+}  // namespace
+}  // namespace cavea::test
