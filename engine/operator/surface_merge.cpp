@@ -5,6 +5,7 @@
 
 #include "cavea/geometry/closest.h"
 #include "cavea/operator/refit.h"
+#include "cavea/operator/starred_hole.h"
 
 namespace cavea {
 namespace {
@@ -53,12 +54,10 @@ class Merge {
   }
 
   Verdict fill(Cavity& cavity) {
-    cavity.removed_tets = tets_;
     cavity.removed_triangles = triangles_;
-    cavity.removed_vertices = j_.vertices;
     make_vertex(cavity);
     if (const Verdict v = star_tets(cavity); v != Verdict::kAccept) return v;
-    if (makes_long_edge(cavity.vertex)) return Verdict::kBadLength;
+    if (makes_long_edge(cavity)) return Verdict::kBadLength;
     star_triangles(cavity);
     if (!keeps_references(cavity)) return Verdict::kBreaksFeature;
     std::vector<Anchor> hints;
@@ -232,46 +231,18 @@ class Merge {
     return closest_on_segment(p, a, b).distance2 <= kExact2 * distance2(a, b);
   }
 
-  bool goes(TetId t) const { return is_in(tets_, t); }
-  bool goes(FaceLink link) const {
-    return link.is_triangle() && is_in(triangles_, link.triangle());
-  }
-
-  /// On each face of the hole but those of triangles that go. The hole must be a ball.
-  Verdict star_tets(Cavity& cavity) {
-    std::vector<Ends> edges;
-    for (const TetId t : tets_)
-      for (int f = 0; f < 4; ++f) {
-        const FaceLink link = c_.mesh.links[t][f], behind = c_.mesh.across(t, f);
-        const bool is_inner = behind.is_tet() && goes(behind.tet());
-        if (is_inner && link.is_triangle() && !goes(link)) return Verdict::kBreaksTopology;
-        if (is_inner) continue;
-        add_edges(t, f, edges);
-        if (goes(link)) {
-          if (behind.is_tet()) return Verdict::kBreaksTopology;
-          continue;
-        }
-        NewTet n{c_.mesh.tets[t], c_.mesh.tet_refs[t]};
-        std::array<Vec3, 4> x = c_.mesh.corners(t);
-        n.v[std::size_t(f)] = m_, x[std::size_t(f)] = j_.place;
-        const double quality = tet_quality(x[0], x[1], x[2], x[3]);
-        if (quality < kFlat) return Verdict::kInverted;
-        n.quality = float(quality);
-        cavity.tets.push_back(n);
-      }
+  Verdict star_tets(Cavity& cavity) const {
+    const StarredHole hole(c_.mesh, tets_, triangles_, j_.place);
+    const auto inside = hole.vertices_inside();
+    if (!hole.is_whole() || !inside) return Verdict::kBreaksTopology;
+    cavity.removed_tets = hole.tets();
+    cavity.tets = hole.star(m_);
+    const auto is_flat = [](const NewTet& n) { return n.quality < kFlat; };
+    if (std::ranges::any_of(cavity.tets, is_flat)) return Verdict::kInverted;
     if (!is_gain(cavity)) return Verdict::kWorseQuality;
-    return drop_swallowed(vertices_of_sphere(std::move(edges)), cavity);
-  }
-
-  /// Vertices inside of which all tets go.
-  Verdict drop_swallowed(const std::vector<VertexId>& hull, Cavity& cavity) const {
-    if (hull.empty()) return Verdict::kBreaksTopology;
-    std::vector<VertexId> all;
-    for (const TetId t : tets_)
-      all.insert(all.end(), c_.mesh.tets[t].begin(), c_.mesh.tets[t].end());
-    keep_once(all);
-    for (const VertexId v : all) {
-      if (is_in(hull, v) || is_vertex(v)) continue;
+    cavity.removed_vertices = j_.vertices;  // those on the boundary are on the hull
+    for (const VertexId v : *inside) {
+      if (is_vertex(v)) continue;
       if (c_.tags(v) & (tag::kSurface | kStays)) return Verdict::kBreaksTopology;
       cavity.removed_vertices.push_back(v);
     }
@@ -281,7 +252,7 @@ class Merge {
   bool is_gain(const Cavity& cavity) const {
     double before = 1, after = 1;
     std::size_t unsound_before = 0, unsound_after = 0;
-    for (const TetId t : tets_) add(c_.mesh.qualities[t], before, unsound_before);
+    for (const TetId t : cavity.removed_tets) add(c_.mesh.qualities[t], before, unsound_before);
     for (const NewTet& n : cavity.tets) add(n.quality, after, unsound_after);
     if (after >= kQualityGain * before) return true;
     return j_.vertices.size() > 1 && unsound_after < unsound_before &&
@@ -292,33 +263,12 @@ class Merge {
     unsound += quality < sound_;
   }
 
-  void add_edges(TetId t, int f, std::vector<Ends>& edges) const {
-    for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(c_.mesh.tets[t][kFaceVertices[f][k]],
-                                      c_.mesh.tets[t][kFaceVertices[f][(k + 1) % 3]]);
-      edges.push_back({a, b});
-    }
-  }
-
-  /// The vertices of closed faces with these edges, each of which they have once; none where they
-  /// are no sphere.
-  static std::vector<VertexId> vertices_of_sphere(std::vector<Ends> edges) {
-    const std::size_t sides = edges.size();
-    keep_once(edges);
-    std::vector<VertexId> vertices;
-    for (const Ends& e : edges) vertices.insert(vertices.end(), e.begin(), e.end());
-    keep_once(vertices);
-    const bool is_sphere =
-        2 * edges.size() == sides && vertices.size() + sides / 3 == edges.size() + 2;
-    return is_sphere ? vertices : std::vector<VertexId>{};
-  }
-
-  bool makes_long_edge(const NewVertex& vertex) const {
+  bool makes_long_edge(const Cavity& cavity) const {
     const double limit = kRelaxedLong * c_.limits.long_edge;
-    return std::ranges::any_of(tets_, [&](TetId t) {
-      return std::ranges::any_of(c_.mesh.tets[t], [&](VertexId v) {
-        return !is_vertex(v) && length_exceeds(distance2(vertex.point, c_.point(v)), vertex.size,
-                                               c_.mesh.sizes[v], limit);
+    return std::ranges::any_of(cavity.tets, [&](const NewTet& n) {
+      return std::ranges::any_of(n.v, [&](VertexId v) {
+        return v != m_ && length_exceeds(distance2(j_.place, c_.point(v)), cavity.vertex.size,
+                                         c_.mesh.sizes[v], limit);
       });
     });
   }
