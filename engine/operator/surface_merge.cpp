@@ -15,6 +15,9 @@ constexpr double kRelaxedLong = 1.4;
 
 /// What closes a strip from one end leaves a tip at the next, as bad as what was there.
 constexpr double kAboutAsGood = 0.9;
+/// Of the worst quality, that is left where a tip is opened: few tets are around, and what is left
+/// is no longer held by the angle.
+constexpr double kMendable = 0.6;
 
 /// What must have nothing of this.
 constexpr Tag kStays = tag::kRequired | tag::kOnRequiredEdge | tag::kNonManifold | tag::kGiven;
@@ -255,6 +258,7 @@ class Merge {
     for (const TetId t : cavity.removed_tets) add(c_.mesh.qualities[t], before, unsound_before);
     for (const NewTet& n : cavity.tets) add(n.quality, after, unsound_after);
     if (after >= kQualityGain * before) return true;
+    if (j_.vertices.empty()) return after >= kMendable * before;
     return j_.vertices.size() > 1 && unsound_after < unsound_before &&
            after >= kAboutAsGood * before;
   }

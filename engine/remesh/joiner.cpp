@@ -34,7 +34,9 @@ std::int64_t Joiner::run(const std::function<void()>& before_first) {
   const auto is_unsound = [&](TetId t) {
     return mesh_.tet_alive(t) && mesh_.qualities[t] < kSoundQuality;
   };
-  for (std::size_t i = 0; i < queue.size(); ++i) {
+  constexpr std::size_t kMostAsked = 10;  // for each of them, what comes included
+  const std::size_t most = kMostAsked * (queue.size() + kMostAsked);
+  for (std::size_t i = 0; i < std::min(queue.size(), most); ++i) {
     if (!is_unsound(queue[i]) || !join_at(queue[i])) continue;
     for (const TetId t : editor_.created())
       if (is_unsound(t)) queue.push_back(t);
