@@ -20,7 +20,7 @@ constexpr double kAboutAsGood = 0.9;
 constexpr double kMendable = 0.6;
 
 /// What must have nothing of this.
-constexpr Tag kStays = tag::kRequired | tag::kOnRequiredEdge | tag::kNonManifold | tag::kGiven;
+constexpr Tag kStays = tag::kRequired | tag::kOnRequiredEdge | tag::kGiven;
 
 using Ends = std::array<VertexId, 2>;
 
@@ -82,6 +82,7 @@ class Merge {
     Tag tags = 0;
     std::int32_t ref = 0;
     int features = 0;
+    int pieces = 0;  ///< edges there that go, and what connects them
   };
 
   Verdict gather_vertex(VertexId v) {
@@ -111,31 +112,25 @@ class Merge {
     return Verdict::kAccept;
   }
 
-  /// The rim of the triangles that go, and what comes from it to the new vertex. They must be a
-  /// disk: what else comes near would be pinched.
+  /// The rim of the triangles that go, and what comes from it to the new vertex.
   Verdict gather_sides() {
     std::vector<Side> sides;
     for (const TriangleId t : triangles_)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto& v = c_.mesh.triangles[t].v;
-        const auto [a, b] = std::minmax(v[(k + 1) % 3], v[(k + 2) % 3]);
-        sides.push_back({{a, b}, t, k});
-      }
+      for (std::size_t k = 0; k < 3; ++k) sides.push_back({ends_of({t, k}), t, k});
     std::ranges::sort(sides, {}, &Side::key);
     int inner = 0;
-    for (std::size_t i = 0; i < sides.size();) {
-      std::size_t end = i + 1;
-      while (end < sides.size() && sides[end].ends == sides[i].ends) ++end;
-      if (end - i == 1) {
-        rim_.push_back(sides[i]);
-      } else {
-        if (end - i > 2 || !add_spokes(sides[i])) return Verdict::kBreaksFeature;
+    for (std::size_t i = 0, end; i < sides.size(); i = end) {
+      for (end = i + 1; end < sides.size() && sides[end].ends == sides[i].ends;) ++end;
+      if (is_inner(sides[i].ends)) {
+        if (!add_spokes(sides[i])) return Verdict::kBreaksFeature;
         ++inner;
+      } else if (end - i > 1) {
+        return Verdict::kBreaksTopology;  // two triangles that would come to the same place
+      } else {
+        rim_.push_back(sides[i]);
       }
-      i = end;
     }
-    if (int(triangles_.size()) - inner + int(j_.vertices.size()) != 1 || !is_simple_rim())
-      return Verdict::kBreaksTopology;
+    if (!keeps_topology(inner)) return Verdict::kBreaksTopology;
     // A curve that ended in itself.
     const auto is_left_over = [&](const Spoke& s) {
       return s.features > 1 && !(c_.tags(s.end) & tag::kCorner);
@@ -143,15 +138,31 @@ class Merge {
     return std::ranges::any_of(spokes_, is_left_over) ? Verdict::kBreaksFeature : Verdict::kAccept;
   }
 
-  bool is_simple_rim() const {
-    std::vector<VertexId> ends;
-    for (const Side& side : rim_) ends.insert(ends.end(), side.ends.begin(), side.ends.end());
-    std::ranges::sort(ends);
-    for (std::size_t i = 0; i < ends.size(); i += 2)
-      if (i + 1 == ends.size() || ends[i] != ends[i + 1] ||
-          (i + 2 < ends.size() && ends[i] == ends[i + 2]) || is_vertex(ends[i]))
-        return false;
-    return true;
+  Ends ends_of(const SurfaceSide& side) const {
+    const auto& v = c_.mesh.triangles[side.triangle].v;
+    const auto [a, b] = std::minmax(v[(side.k + 1) % 3], v[(side.k + 2) % 3]);
+    return {a, b};
+  }
+
+  /// Whether an edge comes to what the new vertex replaces, or is cut.
+  bool is_inner(const Ends& ends) const {
+    return is_vertex(ends[0]) || is_vertex(ends[1]) ||
+           std::ranges::any_of(j_.edges, [&](const SurfaceSide& e) { return ends_of(e) == ends; });
+  }
+
+  /// What goes can be contracted, as what comes can; and what goes at a vertex of the rim hangs
+  /// together through edges: else what is near would be pinched.
+  bool keeps_topology(int inner) {
+    std::vector<VertexId> rim;
+    for (const Side& side : rim_) rim.insert(rim.end(), side.ends.begin(), side.ends.end());
+    keep_once(rim);
+    const int vertices = int(j_.vertices.size() + rim.size());
+    if (vertices - inner - int(rim_.size()) + int(triangles_.size()) != 1) return false;
+    for (const TriangleId t : triangles_)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (is_inner(ends_of({t, (k + 1) % 3})) && is_inner(ends_of({t, (k + 2) % 3})))
+          --spoke_to(c_.mesh.triangles[t].v[k]).pieces;
+    return std::ranges::all_of(rim, [&](VertexId v) { return spoke_to(v).pieces <= 1; });
   }
 
   bool is_vertex(VertexId v) const {
@@ -167,6 +178,7 @@ class Merge {
       Spoke& spoke = spoke_to(end);
       spoke.tags |= tags;
       spoke.features += (tags & tag::kFeature) != 0;
+      ++spoke.pieces;
       if (t.edge_ref[side.k] != 0) spoke.ref = t.edge_ref[side.k];
     }
     return true;
