@@ -26,9 +26,9 @@ struct Junction {
 /// one with all its tags; on a curve it is a corner. Accepted where that raises the worst quality
 /// by enough; or, if there is one vertex less then, about keeps it and leaves fewer tets below
 /// `sound`; or, if only edges are cut, keeps what mending can go on from; and where the new surface
-/// stays within the tolerance (check_refit()). Refused for what is required, non-manifold, or a
-/// given corner or ridge, and where the last of a reference would go. How far curves move is for
-/// the caller to bound.
+/// stays within the tolerance (check_refit()). Refused for what is required or a given corner or
+/// ridge, and where the last of a reference would go. How far curves move is for the caller to
+/// bound.
 Verdict surface_merge(OperatorContext& context, const Junction& junction, double sound,
                       VertexId vertex_id, Cavity& cavity);
 
