@@ -82,7 +82,6 @@ class Merge {
     Tag tags = 0;
     std::int32_t ref = 0;
     int features = 0;
-    int pieces = 0;  ///< edges there that go, and what connects them
   };
 
   Verdict gather_vertex(VertexId v) {
@@ -118,19 +117,18 @@ class Merge {
     for (const TriangleId t : triangles_)
       for (std::size_t k = 0; k < 3; ++k) sides.push_back({ends_of({t, k}), t, k});
     std::ranges::sort(sides, {}, &Side::key);
-    int inner = 0;
     for (std::size_t i = 0, end; i < sides.size(); i = end) {
       for (end = i + 1; end < sides.size() && sides[end].ends == sides[i].ends;) ++end;
-      if (is_inner(sides[i].ends)) {
+      if (is_inner(sides[i], int(end - i))) {
         if (!add_spokes(sides[i])) return Verdict::kBreaksFeature;
-        ++inner;
+        inner_.push_back(sides[i].ends);
       } else if (end - i > 1) {
         return Verdict::kBreaksTopology;  // two triangles that would come to the same place
       } else {
         rim_.push_back(sides[i]);
       }
     }
-    if (!keeps_topology(inner)) return Verdict::kBreaksTopology;
+    if (!keeps_topology()) return Verdict::kBreaksTopology;
     // A curve that ended in itself.
     const auto is_left_over = [&](const Spoke& s) {
       return s.features > 1 && !(c_.tags(s.end) & tag::kCorner);
@@ -144,25 +142,39 @@ class Merge {
     return {a, b};
   }
 
-  /// Whether an edge comes to what the new vertex replaces, or is cut.
-  bool is_inner(const Ends& ends) const {
-    return is_vertex(ends[0]) || is_vertex(ends[1]) ||
-           std::ranges::any_of(j_.edges, [&](const SurfaceSide& e) { return ends_of(e) == ends; });
+  /// Whether an edge of so many triangles that go comes to what the new vertex replaces, is cut, or
+  /// has no others.
+  bool is_inner(const Side& side, int triangles) const {
+    const auto is_cut = [&](const SurfaceSide& e) { return ends_of(e) == side.ends; };
+    const Tag tags = c_.mesh.triangles[side.triangle].edge_tag[side.k];
+    return is_vertex(side.ends[0]) || is_vertex(side.ends[1]) ||
+           std::ranges::any_of(j_.edges, is_cut) || (triangles == 2 && !(tags & tag::kNonManifold));
   }
 
   /// What goes can be contracted, as what comes can; and what goes at a vertex of the rim hangs
   /// together through edges: else what is near would be pinched.
-  bool keeps_topology(int inner) {
+  bool keeps_topology() {
     std::vector<VertexId> rim;
     for (const Side& side : rim_) rim.insert(rim.end(), side.ends.begin(), side.ends.end());
     keep_once(rim);
-    const int vertices = int(j_.vertices.size() + rim.size());
-    if (vertices - inner - int(rim_.size()) + int(triangles_.size()) != 1) return false;
-    for (const TriangleId t : triangles_)
-      for (std::size_t k = 0; k < 3; ++k)
-        if (is_inner(ends_of({t, (k + 1) % 3})) && is_inner(ends_of({t, (k + 2) % 3})))
-          --spoke_to(c_.mesh.triangles[t].v[k]).pieces;
-    return std::ranges::all_of(rim, [&](VertexId v) { return spoke_to(v).pieces <= 1; });
+    const auto vertices = int(j_.vertices.size() + rim.size()),
+               edges = int(inner_.size() + rim_.size());
+    if (vertices - edges + int(triangles_.size()) != 1) return false;
+    return std::ranges::all_of(rim, [&](VertexId v) { return pieces_at(v) == 1; });
+  }
+
+  /// Of what goes at a vertex: triangles and inner edges, less the places where they meet.
+  int pieces_at(VertexId v) const {
+    const auto joints = [&](const Ends& e) { return (e[0] == v || e[1] == v) && is_in(inner_, e); };
+    auto pieces =
+        int(std::ranges::count_if(inner_, [&](const Ends& e) { return e[0] == v || e[1] == v; }));
+    for (const TriangleId t : triangles_) {
+      const auto& corners = c_.mesh.triangles[t].v;
+      if (std::ranges::find(corners, v) == corners.end()) continue;
+      ++pieces;
+      for (std::size_t k = 0; k < 3; ++k) pieces -= joints(ends_of({t, k}));
+    }
+    return pieces;
   }
 
   bool is_vertex(VertexId v) const {
@@ -178,7 +190,6 @@ class Merge {
       Spoke& spoke = spoke_to(end);
       spoke.tags |= tags;
       spoke.features += (tags & tag::kFeature) != 0;
-      ++spoke.pieces;
       if (t.edge_ref[side.k] != 0) spoke.ref = t.edge_ref[side.k];
     }
     return true;
@@ -326,6 +337,7 @@ class Merge {
   std::vector<TetId> tets_;
   std::vector<TriangleId> triangles_;
   std::vector<Side> rim_;
+  std::vector<Ends> inner_;  ///< edges that go, sorted
   std::vector<Spoke> spokes_;
 };
 
