@@ -1,7 +1,6 @@
 #include "cavea/remesh/joining.h"
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -33,7 +32,6 @@ class Before {
     job.report.residual = residual_;
     job.verdicts = verdicts_;
   }
-  const TetMesh& mesh() const { return mesh_; }
 
  private:
   TetMesh mesh_;
@@ -60,28 +58,34 @@ void join_and_mend(Job& job, bool surface_frozen, const std::vector<FailedPlace>
   }
 }
 
-bool crosses_more(const TetMesh& mesh, const TetMesh& before) {
-  const std::size_t crossings = find_crossings(mesh).size();
-  return crossings > 0 && crossings > find_crossings(before).size();
-}
+/// What a trial must not fall short of.
+struct Standard {
+  double farthest = 0;  ///< distance of the surface from the ideal one, in hausd
+  double worst = 0;     ///< quality
+};
 
-/// The places that must not be as they are: too far from the ideal surface, or where the surface
-/// passes through itself.
+/// The places that must not be as they are: too far from the ideal surface, where the surface
+/// passes through itself, or among tets that are worse than any was.
 std::vector<FailedPlace> failures(const TetMesh& mesh, const SurfaceDistance& distance,
-                                  double farthest) {
+                                  const Standard& standard) {
   // As far as what a junction changes reaches, about.
   constexpr double kAround = 2;
   std::vector<FailedPlace> found;
-  const auto add = [&](const Vec3& where, TriangleId t) {
+  const auto add = [&](const Vec3& where, const auto& vertices) {
     double size = 0;
-    for (const VertexId v : mesh.triangles[std::size_t(t)].v)
-      size = std::max(size, double(mesh.sizes[v]));
+    for (const VertexId v : vertices) size = std::max(size, double(mesh.sizes[v]));
     found.push_back({where, kAround * size});
   };
   for (const auto* far : {&distance.far_facets, &distance.far_triangles})
     for (const FarSample& f : *far)
-      if (f.distance > farthest * f.hausd && f.triangle != kNone) add(f.where, f.triangle);
-  for (const Crossing& c : find_crossings(mesh)) add(c.where, c.a);
+      if (f.distance > standard.farthest * f.hausd && f.triangle != kNone)
+        add(f.where, mesh.triangles[std::size_t(f.triangle)].v);
+  for (const Crossing& c : find_crossings(mesh)) add(c.where, mesh.triangles[std::size_t(c.a)].v);
+  for (const TetId t : unsound_tets(mesh)) {
+    if (mesh.qualities[t] >= standard.worst) continue;
+    const auto [a, b, c, d] = mesh.corners(t);
+    add((a + b + c + d) / 4, mesh.tets[t]);
+  }
   return found;
 }
 
@@ -89,20 +93,22 @@ std::vector<FailedPlace> failures(const TetMesh& mesh, const SurfaceDistance& di
 void try_joining(Job& job, bool surface_frozen, SurfaceDistance& distance,
                  const std::function<SurfaceDistance()>& measure) {
   constexpr int kTrials = 6;
-  const double farthest = std::max(kMeasuredShare, distance.worse().worst);
+  const Standard standard{std::max(kMeasuredShare, distance.worse().worst),
+                          worst_quality(job.mesh)};
+  const std::size_t crossings = find_crossings(job.mesh).size();
   std::vector<FailedPlace> failed;
   for (int trial = 0; trial < kTrials; ++trial) {
     std::optional<Before> before;
     job.steps.timed("joining", [&] { join_and_mend(job, surface_frozen, failed, before); });
     if (!before) return;
     SurfaceDistance after = measure();
-    const std::size_t failed_before = failed.size();
-    if (after.worse().worst > farthest || crosses_more(job.mesh, before->mesh()))
-      std::ranges::copy(failures(job.mesh, after, farthest), std::back_inserter(failed));
-    else if (worst_quality(job.mesh) >= worst_quality(before->mesh()))
+    if (after.worse().worst <= standard.farthest && worst_quality(job.mesh) >= standard.worst &&
+        find_crossings(job.mesh).size() <= crossings)
       return void(distance = std::move(after));
+    const std::vector<FailedPlace> now = failures(job.mesh, after, standard);
     std::move(*before).give_back(job);
-    if (failed.size() == failed_before) return;  // nobody knows where to do otherwise
+    if (now.empty()) return;  // nobody knows where to do otherwise
+    failed.insert(failed.end(), now.begin(), now.end());
   }
 }
 
