@@ -1,19 +1,12 @@
 #include "cavea/operator/starred_hole.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "cavea/base/keep_once.h"
+
 namespace cavea {
-namespace {
-
-template <class T>
-void keep_once(std::vector<T>& all) {
-  std::ranges::sort(all);
-  all.erase(std::ranges::unique(all).begin(), all.end());
-}
-
-}  // namespace
-
 StarredHole::StarredHole(const TetMesh& mesh, std::vector<TetId> tets,
                          std::span<const TriangleId> gone, const Vec3& place)
     : mesh_(mesh), tets_(std::move(tets)), gone_(gone), place_(place) {

@@ -1,23 +1,8 @@
 #pragma once
-#include <vector>
-
 #include "cavea/operator/context.h"
+#include "cavea/operator/junction.h"
 
 namespace cavea {
-
-/// Side k of a surface triangle: the one opposite corner k.
-struct SurfaceSide {
-  TriangleId triangle = kNone;
-  std::size_t k = 0;
-};
-
-/// Where parts of the surface are to meet: a new vertex takes the place of some of its vertices,
-/// and cuts some of its feature edges.
-struct Junction {
-  std::vector<VertexId> vertices;
-  std::vector<SurfaceSide> edges;
-  Vec3 place;
-};
 
 /// The very last resort for bad tets at what of the surface is nearer to each other than the
 /// tolerance, which so cannot tell it apart. The tets around what meets in the junction are

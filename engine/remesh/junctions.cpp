@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cavea/base/keep_once.h"
 #include "cavea/geometry/closest.h"
 
 namespace cavea {
@@ -31,8 +32,7 @@ std::vector<TriangleId> triangles_at(OperatorContext& c, TetId t) {
       if (is_beside(id)) found.push_back(id);
     });
   }
-  std::ranges::sort(found);
-  found.erase(std::ranges::unique(found).begin(), found.end());
+  keep_once(found);
   return found;
 }
 
