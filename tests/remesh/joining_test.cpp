@@ -66,13 +66,6 @@ std::int64_t joined(const Report& report) {
   return n;
 }
 
-Report report_of(const MeshData& data, const Options& options) {
-  TetMesh mesh = built(data);
-  const Report report = remesh(mesh, {}, options);
-  expect_sound(mesh);
-  return report;
-}
-
 void expect_joined(const MeshData& data, double size) {
   const Report report = report_of(data, options_of(size));
   EXPECT_LT(report.before.quality.worst, 0.3);

@@ -23,13 +23,6 @@ MeshData wedge(double degrees) {
   return data;
 }
 
-Report report_of(const MeshData& data, const Options& options) {
-  TetMesh mesh = built(data);
-  const Report report = remesh(mesh, {}, options);
-  expect_sound(mesh);
-  return report;
-}
-
 bool says(const StubbornTet& t, const std::string& what) {
   return t.reason.find(what) != std::string::npos;
 }

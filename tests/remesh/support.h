@@ -85,4 +85,12 @@ inline Options uniform(double size, int threads = 0) {
   return options;
 }
 
+/// Of a run whose result is sound.
+inline Report report_of(const MeshData& data, const Options& options) {
+  TetMesh mesh = built(data);
+  const Report report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  return report;
+}
+
 }  // namespace cavea::test
