@@ -44,22 +44,55 @@ std::int64_t Joiner::run(const std::function<void()>& before_first) {
   return joined_;
 }
 
+/// Commits the best, but those first that leave the planes of the exterior boundary as they are: a
+/// body of planes keeps its volume.
 bool Joiner::join_at(TetId t) {
-  return join_best(junctions_of_vertices(mesh_, t)) ||
-         join_best(junctions_in_triangles(context_, t));
-}
-
-/// Commits the one after which the worst tet is best.
-bool Joiner::join_best(const std::vector<Junction>& junctions) {
   std::vector<Candidate> found;
-  for (const Junction& j : junctions)
-    if (const std::optional<double> moved = displacement(j)) add_candidate(j, *moved, found);
-  std::ranges::stable_sort(found, std::greater<>(), &Candidate::worst);
+  add_candidates(junctions_of_vertices(mesh_, t), 0, found);
+  add_candidates(junctions_in_triangles(context_, t), 1, found);
+  std::ranges::stable_sort(found, {}, &Candidate::rank);
   const auto best =
       std::ranges::find_if(found, [&](const Candidate& c) { return !crosses(c.cavity); });
   if (best == found.end()) return false;
   commit(*best);
   return true;
+}
+
+/// Where an interface meets the exterior boundary, it gives way. \param kind the lower, the better,
+/// where planes count alike
+void Joiner::add_candidates(const std::vector<Junction>& junctions, int kind,
+                            std::vector<Candidate>& found) {
+  for (const Junction& j : junctions) {
+    const std::optional<double> moved = displacement(j);
+    if (!moved) continue;
+    Candidate c{{}, {}, *moved};
+    const Verdict v = surface_merge(context_, j, kSoundQuality, editor_.next_vertex(), c.cavity);
+    job_.verdicts.add(Operator::kSurfaceMerge, v);
+    if (v != Verdict::kAccept) continue;
+    const bool keeps = keeps_planes(c.cavity);
+    if (!keeps && has_interface(c.cavity)) continue;
+    const auto worst = std::ranges::min_element(c.cavity.tets, {}, &NewTet::quality);
+    c.rank = {!keeps, kind, -worst->quality};
+    found.push_back(std::move(c));
+  }
+}
+
+bool Joiner::has_interface(const Cavity& cavity) const {
+  return std::ranges::any_of(cavity.removed_triangles,
+                             [&](TriangleId t) { return mesh_.triangles[t].sides[1].is_tet(); });
+}
+
+/// Whether the new vertex is in the planes of all triangles of the exterior boundary that go.
+bool Joiner::keeps_planes(const Cavity& cavity) const {
+  constexpr double kRounding = 1e-12;  // of the cube of what is between them
+  const Vec3 m = cavity.vertex.point;
+  return std::ranges::all_of(cavity.removed_triangles, [&](TriangleId id) {
+    const Triangle& t = mesh_.triangles[id];
+    const Vec3 a = mesh_.points[t.v[0]], b = mesh_.points[t.v[1]], c = mesh_.points[t.v[2]];
+    const double reach = std::max({distance(a, m), distance(b, m), distance(c, m)});
+    return t.sides[1].is_tet() ||
+           std::abs(volume6(m, a, b, c)) <= kRounding * reach * reach * reach;
+  });
 }
 
 /// Of the tolerance, that may be used there.
@@ -82,16 +115,6 @@ std::optional<double> Joiner::displacement(const Junction& junction) const {
     farthest = std::max(farthest, all);
   }
   return farthest;
-}
-
-void Joiner::add_candidate(const Junction& junction, double moved, std::vector<Candidate>& found) {
-  Candidate c{{}, 1, moved};
-  const Verdict v =
-      surface_merge(context_, junction, kSoundQuality, editor_.next_vertex(), c.cavity);
-  job_.verdicts.add(Operator::kSurfaceMerge, v);
-  if (v != Verdict::kAccept) return;
-  for (const NewTet& n : c.cavity.tets) c.worst = std::min(c.worst, double(n.quality));
-  found.push_back(std::move(c));
 }
 
 /// Beside slits, too, all of the tolerance is used up.

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -30,15 +31,17 @@ class Joiner {
  private:
   struct Candidate {
     Cavity cavity;
-    double worst = 1;
+    std::tuple<bool, int, float> rank;  ///< the lower, the better
     double moved = 0;
   };
 
   bool join_at(TetId t);
-  bool join_best(const std::vector<Junction>& junctions);
+  void add_candidates(const std::vector<Junction>& junctions, int kind,
+                      std::vector<Candidate>& found);
+  bool has_interface(const Cavity& cavity) const;
+  bool keeps_planes(const Cavity& cavity) const;
   double share_at(const Vec3& place) const;
   std::optional<double> displacement(const Junction& junction) const;
-  void add_candidate(const Junction& junction, double moved, std::vector<Candidate>& found);
   bool crosses(const Cavity& cavity) const;
   void commit(const Candidate& candidate);
 

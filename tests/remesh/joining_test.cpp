@@ -120,6 +120,21 @@ TEST(Joining, LeavesSomeOfEachReference) {
   }));
 }
 
+TEST(Joining, OfInterfacesLeavesThePlanesOfTheBoundary) {
+  // A layer thinner than the tolerance, which ends in the boundary.
+  MeshData data = mapped(two_halves(4), [](const Vec3& p) {
+    return Vec3{p.x <= 0.5 ? p.x * 0.6 * kHausd : 2 * p.x - 1 + (2 - 2 * p.x) * 0.3 * kHausd, p.y,
+                p.z};
+  });
+  TetMesh mesh = built(data);
+  const auto volumes = count(mesh).volume_of_ref;
+  remesh(mesh, {}, options_of(0.1));
+  expect_sound(mesh);
+  EXPECT_NEAR(volume(mesh), 1, 1e-9);
+  for (const auto& [ref, before] : volumes)
+    EXPECT_NEAR(count(mesh).volume_of_ref.at(ref), before, kHausd);
+}
+
 TEST(Joining, IsNotDoneWhereFrozen) {
   Freezes collapse, surface, join;
   collapse.collapse = surface.surface = join.join = true;
