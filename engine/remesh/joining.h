@@ -11,8 +11,8 @@ namespace cavea {
 /// far as that makes these better, and what is around is mended. All is taken back where the
 /// surface would then be farther from the ideal one than it may be or was, pass through itself, or
 /// the worst tet be no better. Nothing moves that is required or a given corner or ridge, no curve
-/// by more than the tolerance, and no reference is lost. \param distance of the mesh from the ideal
-/// surface, kept in step by measure()
+/// by more than the tolerance in any of five rounds, and no reference is lost.
+/// \param distance of the mesh from the ideal surface, kept in step by measure()
 void join_surface(Job& job, SurfaceDistance& distance,
                   const std::function<SurfaceDistance()>& measure);
 
