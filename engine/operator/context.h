@@ -18,6 +18,9 @@ namespace cavea {
 /// shortens: without, two of three edges that stay too short are stuck.
 inline constexpr double kToleratedLong = 1.05;
 
+/// What raises the worst quality may make edges this many times too long: a later split mends them.
+inline constexpr double kRelaxedLong = 1.4;
+
 /// What a phase of the recipe allows its operators (paper, section 4.3: each phase is stricter than
 /// the one before).
 struct Limits {

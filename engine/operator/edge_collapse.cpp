@@ -7,9 +7,6 @@
 namespace cavea {
 namespace {
 
-/// A collapse that raises the worst quality may make edges this many times too long: a later split
-/// mends them.
-constexpr double kRelaxedLong = 1.4;
 /// Where the worst quality is below this, lengths come second: a vertex between two walls that
 /// nearly touch can only vanish along edges that are long.
 constexpr double kNeedle = 0.1, kNeedleLong = 3;

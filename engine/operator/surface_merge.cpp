@@ -13,9 +13,6 @@
 namespace cavea {
 namespace {
 
-/// Edges may become this many times too long.
-constexpr double kRelaxedLong = 1.4;
-
 /// What closes a strip from one end leaves a tip at the next, as bad as what was there.
 constexpr double kAboutAsGood = 0.9;
 /// Of the worst quality, that is left where a tip is opened: few tets are around, and what is left
@@ -34,7 +31,6 @@ class Merge {
       if (const Verdict verdict = gather_vertex(v); verdict != Verdict::kAccept) return verdict;
     for (const SurfaceSide& e : j_.edges)
       if (const Verdict verdict = gather_edge(e); verdict != Verdict::kAccept) return verdict;
-    keep_once(tets_);
     keep_once(triangles_);
     for (const TetId t : tets_)
       if (c_.mesh.tet_flags[t] & tet_flag::kRequired) return Verdict::kBreaksFeature;

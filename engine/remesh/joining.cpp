@@ -40,19 +40,18 @@ class Before {
   VerdictTable verdicts_;
 };
 
-void keep(const Job& job, std::optional<Before>& before) {
-  if (!before) before.emplace(job);
-}
-
 /// What is left of the poor tets there is mended like all, and may leave more to join.
 void join_and_mend(Job& job, bool surface_frozen, const std::vector<FailedPlace>& failed,
                    std::optional<Before>& before) {
   constexpr int kRounds = 5;
   std::vector<Phase> phases = poor_recipe(job.r);
   for (Phase& p : phases) p.cycle.limits.surface_frozen |= surface_frozen;
+  const auto keep_first = [&] {
+    if (!before) before.emplace(job);
+  };
   for (int round = 0; round < kRounds; ++round) {
     ask_nothing(job.mesh);
-    if (Joiner(job, failed).run([&] { keep(job, before); }) == 0) return;
+    if (Joiner(job, failed).run(keep_first) == 0) return;
     fill_holes(job.mesh, &job.report.part_of_tet);
     run_phases(job, phases);
   }
@@ -62,11 +61,13 @@ void join_and_mend(Job& job, bool surface_frozen, const std::vector<FailedPlace>
 struct Standard {
   double farthest = 0;  ///< distance of the surface from the ideal one, in hausd
   double worst = 0;     ///< quality
+  std::size_t crossings = 0;
 };
 
 /// The places that must not be as they are: too far from the ideal surface, where the surface
 /// passes through itself, or among tets that are worse than any was.
 std::vector<FailedPlace> failures(const TetMesh& mesh, const SurfaceDistance& distance,
+                                  const std::vector<Crossing>& crossings,
                                   const Standard& standard) {
   // As far as what a junction changes reaches, about.
   constexpr double kAround = 2;
@@ -80,7 +81,7 @@ std::vector<FailedPlace> failures(const TetMesh& mesh, const SurfaceDistance& di
     for (const FarSample& f : *far)
       if (f.distance > standard.farthest * f.hausd && f.triangle != kNone)
         add(f.where, mesh.triangles[std::size_t(f.triangle)].v);
-  for (const Crossing& c : find_crossings(mesh)) add(c.where, mesh.triangles[std::size_t(c.a)].v);
+  for (const Crossing& c : crossings) add(c.where, mesh.triangles[std::size_t(c.a)].v);
   for (const TetId t : unsound_tets(mesh)) {
     if (mesh.qualities[t] >= standard.worst) continue;
     const auto [a, b, c, d] = mesh.corners(t);
@@ -93,19 +94,19 @@ std::vector<FailedPlace> failures(const TetMesh& mesh, const SurfaceDistance& di
 void try_joining(Job& job, bool surface_frozen, SurfaceDistance& distance,
                  const std::function<SurfaceDistance()>& measure) {
   constexpr int kTrials = 6;
-  const Standard standard{std::max(kMeasuredShare, distance.worse().worst),
-                          worst_quality(job.mesh)};
-  const std::size_t crossings = find_crossings(job.mesh).size();
+  const Standard standard{std::max(kMeasuredShare, distance.worse().worst), worst_quality(job.mesh),
+                          find_crossings(job.mesh).size()};
   std::vector<FailedPlace> failed;
   for (int trial = 0; trial < kTrials; ++trial) {
     std::optional<Before> before;
     job.steps.timed("joining", [&] { join_and_mend(job, surface_frozen, failed, before); });
     if (!before) return;
     SurfaceDistance after = measure();
+    const std::vector<Crossing> crossings = find_crossings(job.mesh);
     if (after.worse().worst <= standard.farthest && worst_quality(job.mesh) >= standard.worst &&
-        find_crossings(job.mesh).size() <= crossings)
+        crossings.size() <= standard.crossings)
       return void(distance = std::move(after));
-    const std::vector<FailedPlace> now = failures(job.mesh, after, standard);
+    const std::vector<FailedPlace> now = failures(job.mesh, after, crossings, standard);
     std::move(*before).give_back(job);
     if (now.empty()) return;  // nobody knows where to do otherwise
     failed.insert(failed.end(), now.begin(), now.end());
