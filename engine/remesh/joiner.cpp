@@ -4,19 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "cavea/base/ids_where.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/stubborn.h"
 #include "cavea/surface/crossings.h"
 
 namespace cavea {
-
-std::vector<TetId> unsound_tets(const TetMesh& mesh) {
-  std::vector<TetId> tets =
-      ids_where(mesh.tets.size(), [&](std::size_t t) { return mesh.qualities[t] < kSoundQuality; });
-  std::ranges::sort(tets, {}, [&](TetId t) { return std::pair(mesh.qualities[t], t); });
-  return tets;
-}
 
 Joiner::Joiner(Job& job, const std::vector<FailedPlace>& failed)
     : job_(job),
@@ -100,7 +92,7 @@ double Joiner::share_at(const Vec3& place) const {
   constexpr double kLess = 0.75;
   double share = 1;
   for (const FailedPlace& f : failed_)
-    if (distance(place, f.center) < f.radius) share *= kLess;
+    if (f.contains(place)) share *= kLess;
   return share;
 }
 

@@ -7,22 +7,17 @@
 #include <vector>
 
 #include "cavea/cavity/mesh_editor.h"
+#include "cavea/remesh/attempt.h"
 #include "cavea/remesh/job.h"
 #include "cavea/remesh/junctions.h"
 
 namespace cavea {
 
-/// Where less of the tolerance is to be used, since that has failed.
-struct FailedPlace {
-  Vec3 center;
-  double radius = 0;
-};
-
 /// Joins parts of the surface at tets that are not sound, the worst first: few, one after the
 /// other. The mesh may have holes then.
 class Joiner {
  public:
-  /// \param failed must outlive the joiner
+  /// \param failed where less of the tolerance is to be used; must outlive the joiner
   Joiner(Job& job, const std::vector<FailedPlace>& failed);
 
   /// \param before_first is called before the mesh changes, if it does \return how many joined
@@ -54,8 +49,5 @@ class Joiner {
   std::unordered_map<VertexId, double> moved_;  ///< how far what meets there has been moved
   std::int64_t joined_ = 0;
 };
-
-/// Tets below kSoundQuality, the worst first.
-std::vector<TetId> unsound_tets(const TetMesh& mesh);
 
 }  // namespace cavea

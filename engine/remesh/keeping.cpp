@@ -42,6 +42,7 @@ class Judge {
   bool stands() {
     const bool surely = effort_ != Effort::kWhereNeeded || is_good();
     const bool own = !sizes_are_given(job_.options, bool(job_.field));
+    if (!own && surely && !no_length_is_poor(before_.lengths)) leave_narrow_places();
     if (!own || !(surely || is_near())) return surely;
     const LengthStatistics in_wanted = before_.lengths;
     std::vector<float> sizes = own_sizes_within(job_.mesh, job_.r.largest);
@@ -52,6 +53,12 @@ class Judge {
     job_.mesh.sizes.swap(sizes);
     before_.lengths = in_wanted;
     return false;
+  }
+
+  /// Given sizes may have given way where the body is narrow: see refine_narrow_places().
+  void leave_narrow_places() {
+    give_way_to_own(job_.mesh);
+    before_.lengths = length_statistics(job_.mesh);
   }
 
   bool is_good() const {

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "cavea/remesh/asking.h"
-#include "cavea/remesh/mending.h"
 #include "cavea/remesh/joining.h"
+#include "cavea/remesh/mending.h"
+#include "cavea/remesh/narrow_places.h"
 #include "cavea/remesh/rounds.h"
 #include "cavea/remesh/standing.h"
 
@@ -15,13 +16,6 @@ namespace {
 
 /// Places that are still too far from the surface after this many repairs are left and reported.
 constexpr int kRepairs = 10;
-
-/// The smallest size of repairs. The least of all bounds is a wish, but what bounds a uniform size
-/// from below would forbid them.
-double finest_size(const ResolvedOptions& r) {
-  constexpr double kFinest = 0.125;
-  return r.uniform() ? kFinest * r.smallest : r.smallest;
-}
 
 /// Around the far sample's triangle. The distance goes with the square of the size; a little more
 /// for good measure.
@@ -84,6 +78,11 @@ SurfaceDistance finish_and_measure(Job& job) {
 
 }  // namespace
 
+double finest_size(const ResolvedOptions& r) {
+  constexpr double kFinest = 0.125;
+  return r.uniform() ? kFinest * r.smallest : r.smallest;
+}
+
 SurfaceDistance measure_and_repair(Job& job) {
   SurfaceDistance distance = finish_and_measure(job);
   int repairs = 0;
@@ -101,6 +100,11 @@ SurfaceDistance measure_and_repair(Job& job) {
     repair_all();
   }
   join_surface(job, distance, [&] { return finish_and_measure(job); });
+  refine_narrow_places(job, distance, [&] {
+    distance = finish_and_measure(job);
+    repair_all();
+    return distance;
+  });
   return distance;
 }
 

@@ -45,10 +45,6 @@ bool is_poor(const TetMesh& m, TetId t) {
   });
 }
 
-bool no_length_is_poor(const LengthStatistics& now) {
-  return now.shortest >= kTooShort && now.longest <= kTooLong;
-}
-
 /// Of quality below 0.4, which is kPoorQuality: four bins of ten.
 double share_of_poor(const QualityStatistics& q) {
   const auto& bins = q.histogram;
@@ -68,6 +64,10 @@ bool is_between(const MeshSummary& now, const LengthStatistics& in_curved, const
 }
 
 }  // namespace
+
+bool no_length_is_poor(const LengthStatistics& now) {
+  return now.shortest >= kTooShort && now.longest <= kTooLong;
+}
 
 bool has_the_quality_of_results(const QualityStatistics& now, bool uniform) {
   return now.mean >= (uniform ? kUniformMean : kVaryingMean);
@@ -123,6 +123,15 @@ std::vector<float> own_sizes_within(const TetMesh& mesh, double largest) {
     sizes[v] = std::max(finest, std::min(sizes[v], float(kCoarsest * largest)));
   });
   return sizes;
+}
+
+void give_way_to_own(TetMesh& mesh) {
+  // Where sizes are kept, few vertices have shorter edges.
+  constexpr float kGivenWay = 0.7f;
+  const std::vector<float> own = own_sizes_within(mesh, *std::ranges::max_element(mesh.sizes));
+  parallel_for(own.size(), [&](std::size_t v) {
+    if (own[v] < kGivenWay * mesh.sizes[v]) mesh.sizes[v] = own[v];
+  });
 }
 
 std::int64_t count_poor(const TetMesh& mesh) {

@@ -12,6 +12,9 @@ namespace cavea {
 /// Results have no worse tets where the domain does not force them.
 inline constexpr double kPoorQuality = 0.4;
 
+/// Whether all lengths are such as results have.
+bool no_length_is_poor(const LengthStatistics& now);
+
 /// Whether the mean quality is what runs reach on bodies that are nowhere thin.
 bool has_the_quality_of_results(const QualityStatistics& now, bool uniform);
 
@@ -42,6 +45,9 @@ bool may_have_made_room(const MeshSummary& now, const LengthStatistics& in_curve
 
 /// The sizes that a mesh has: at least 0.3 of those wanted, and at most 1.25 of `largest`.
 std::vector<float> own_sizes_within(const TetMesh& mesh, double largest);
+
+/// The same only where edges are clearly shorter than wanted: all others stay as they are.
+void give_way_to_own(TetMesh& mesh);
 
 /// How many tets are poor: far from what is wanted, in quality or in length. Needs the sizes.
 std::int64_t count_poor(const TetMesh& mesh);

@@ -110,12 +110,13 @@ MeshData roof(double width) {
 }
 
 TEST(Stubborn, TetsAtANarrowStripBetweenCurvesAreNamedWithItsWidth) {
-  const Report report = report_of(roof(0.01), uniform(0.05));
+  // Too narrow for an eighth of the wanted size, too.
+  const Report report = report_of(roof(0.002), uniform(0.05));
   ASSERT_FALSE(report.stubborn.empty());
   int narrow = 0;
   for (const StubbornTet& t : report.stubborn) {
     EXPECT_NE(t.reason, "");
-    narrow += says(t, "between feature curves is 0.01 wide, 0.2 of the wanted length");
+    narrow += says(t, "between feature curves is 0.002 wide, 0.04 of the wanted length");
   }
   EXPECT_GT(narrow, 0);
 }

@@ -1,0 +1,142 @@
+#include "cavea/remesh/narrow_places.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "cavea/remesh/asking.h"
+#include "cavea/remesh/attempt.h"
+#include "cavea/remesh/mending.h"
+#include "cavea/remesh/recipe.h"
+#include "cavea/remesh/repair.h"
+#include "cavea/remesh/rounds.h"
+
+namespace cavea {
+namespace {
+
+/// Where more of the tets are unsound, the domain is to blame: walls that meet at small angles have
+/// as many of them in any size.
+constexpr double kFew = 0.005;
+/// Down to an eighth of the wanted size.
+constexpr int kHalvings = 3;
+/// Each leaves out the places where the last one was in vain.
+constexpr int kTrials = 4;
+
+Vec3 center_of(const TetMesh& mesh, TetId t) {
+  const auto [a, b, c, d] = mesh.corners(t);
+  return (a + b + c + d) / 4;
+}
+
+/// Around the vertices of a tet, whatever rounding does.
+SizeSphere spot_around(const TetMesh& mesh, TetId t) {
+  constexpr double kReach = 1.01;
+  SizeSphere spot{center_of(mesh, t), 0, mesh.sizes[mesh.tets[t][0]]};
+  for (const VertexId v : mesh.tets[t]) {
+    spot.radius = std::max(spot.radius, kReach * distance(spot.center, mesh.points[v]));
+    spot.size = std::min(spot.size, double(mesh.sizes[v]));
+  }
+  return spot;
+}
+
+class Refinement {
+ public:
+  Refinement(Job& job, SurfaceDistance& distance, const std::function<SurfaceDistance()>& measure)
+      : job_(job), distance_(distance), measure_(measure) {}
+
+  /// \return whether some tets have become sound
+  bool refine_once() {
+    for (int trial = 0; trial < kTrials; ++trial) {
+      const std::vector<SizeSphere> spots = hopeful_spots();
+      if (spots.empty()) return false;
+      if (refine(spots)) return true;
+    }
+    return false;
+  }
+
+ private:
+  /// Around the unsound tets, but where that has failed or sizes are as small as they may be.
+  std::vector<SizeSphere> hopeful_spots() const {
+    const TetMesh& mesh = job_.mesh;
+    const std::vector<TetId> unsound = unsound_tets(mesh);
+    if (double(unsound.size()) > kFew * double(mesh.tets.size())) return {};
+    const double finest = finest_size(job_.r);
+    std::vector<SizeSphere> spots;
+    for (const TetId t : unsound) {
+      SizeSphere spot = spot_around(mesh, t);
+      const bool failed = std::ranges::any_of(
+          failed_, [&](const FailedPlace& f) { return f.contains(spot.center); });
+      if (failed || spot.size <= finest) continue;
+      spot.size = std::max(finest, spot.size / 2);
+      spots.push_back(spot);
+    }
+    return spots;
+  }
+
+  /// False if that was in vain: then it is taken back, and its failures are known.
+  bool refine(const std::vector<SizeSphere>& spots) {
+    job_.input.keep(job_.mesh);
+    const Standard standard = standard_of(job_.mesh, distance_);
+    const std::vector<TetId> unsound = unsound_tets(job_.mesh);
+    std::vector<Vec3> centers;
+    for (const TetId t : unsound) centers.push_back(center_of(job_.mesh, t));
+    Before before(job_);
+    const SurfaceDistance distance_before = distance_;
+    job_.steps.timed("refining", [&] { lower_and_mend(spots, unsound); });
+    distance_ = measure_();
+    const std::vector<TetId> left = unsound_tets(job_.mesh);
+    const std::vector<Crossing> crossings = find_crossings(job_.mesh);
+    if (left.size() < unsound.size() && standard.is_met(job_.mesh, distance_, crossings))
+      return true;
+    std::vector<Vec3> centers_left;
+    for (const TetId t : left) centers_left.push_back(center_of(job_.mesh, t));
+    add_failures(spots, centers, centers_left, standard.failures(job_.mesh, distance_, crossings));
+    std::move(before).give_back(job_);
+    distance_ = distance_before;
+    return false;
+  }
+
+  void lower_and_mend(const std::vector<SizeSphere>& spots, const std::vector<TetId>& unsound) {
+    TetMesh& mesh = job_.mesh;
+    const std::vector<float> sizes_before =
+        job_.sizes.lower(mesh, job_.surface.model(), spots, finest_size(job_.r));
+    ask_nothing(mesh);
+    ask_changed_lengths(mesh, sizes_before);
+    for (const TetId t : unsound) mesh.tet_flags[t] |= tet_flag::kAskAll;
+    run_phases(job_, mending_recipe(job_.r));
+    mend_poor(job_);
+  }
+
+  /// Spots that have as many unsound tets around them as before, and those near other failures.
+  void add_failures(const std::vector<SizeSphere>& spots, const std::vector<Vec3>& before,
+                    const std::vector<Vec3>& after, const std::vector<FailedPlace>& worse) {
+    constexpr double kAround = 2;  // what is done in a spot changes what is beside it
+    for (const SizeSphere& s : spots) {
+      const FailedPlace around{s.center, kAround * s.radius};
+      const auto count = [&](const std::vector<Vec3>& centers) {
+        return std::ranges::count_if(centers, [&](const Vec3& p) { return around.contains(p); });
+      };
+      const bool is_worse = std::ranges::any_of(worse, [&](const FailedPlace& f) {
+        return distance(f.center, s.center) <= f.radius + around.radius;
+      });
+      if (is_worse || count(after) >= count(before)) failed_.push_back({s.center, s.radius});
+    }
+  }
+
+  Job& job_;
+  SurfaceDistance& distance_;
+  const std::function<SurfaceDistance()>& measure_;
+  std::vector<FailedPlace> failed_;
+};
+
+}  // namespace
+
+void refine_narrow_places(Job& job, SurfaceDistance& distance,
+                          const std::function<SurfaceDistance()>& measure) {
+  const Freezes& freeze = job.r.freeze;
+  if (job.keeping.stands || freeze.insert || freeze.surface || job.sizes.budget().binds()) return;
+  Refinement refinement(job, distance, measure);
+  for (int k = 0; k < kHalvings; ++k)
+    if (!refinement.refine_once()) return;
+}
+
+}  // namespace cavea

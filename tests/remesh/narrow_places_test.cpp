@@ -1,0 +1,81 @@
+// Where the domain is narrower than the wanted sizes, these give way in a few places, so that no
+// tet stays unsound.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "remesh/steps.h"
+#include "remesh/support.h"
+
+namespace cavea::test {
+namespace {
+
+constexpr double kSize = 0.05;
+
+/// The step is too high to be joined, and far lower than the wanted size.
+MeshData low_step() { return step(0.15 * kSize); }
+
+/// Two walls that meet at an angle in degrees: no size makes good tets there.
+MeshData wedge(double angle) {
+  const double slope = std::tan(angle * std::numbers::pi / 180);
+  return mapped(half_cube(4), [&](const Vec3& p) { return Vec3{p.x, slope * p.y, p.z}; });
+}
+
+Options options_of_size() {
+  Options options = uniform(kSize);
+  options.hausd = 0.02 * kSize;
+  return options;
+}
+
+bool was_refined(const Report& report) {
+  return std::ranges::any_of(report.phases,
+                             [](const PhaseTime& p) { return p.phase == "refining"; });
+}
+
+TEST(NarrowPlaces, UniformSizesGiveWayWhereRidgesAreNear) {
+  TetMesh mesh = built(low_step());
+  const Report report = remesh(mesh, {}, options_of_size());
+  expect_sound(mesh);
+  EXPECT_TRUE(was_refined(report));
+  EXPECT_GE(report.after.quality.worst, 0.3);
+  EXPECT_GE(report.after.lengths.conforming_percent(), 97);
+  EXPECT_LE(report.surface_distance, *options_of_size().hausd);
+  EXPECT_NEAR(report.after.counts.volume, report.before.counts.volume, 1e-9);
+  const double smallest = *std::ranges::min_element(mesh.sizes);
+  EXPECT_LT(smallest, 0.9 * kSize);
+  EXPECT_GE(smallest, 0.124 * kSize);
+}
+
+TEST(NarrowPlaces, WhatIsInVainIsTakenBack) {
+  constexpr double kSize = 0.02;  // so that most tets are nowhere near the tip
+  TetMesh mesh = built(wedge(8));
+  const Report report = remesh(mesh, {}, uniform(kSize));
+  expect_sound(mesh);
+  EXPECT_TRUE(was_refined(report));
+  EXPECT_LT(report.after.quality.worst, 0.3);
+  EXPECT_GE(*std::ranges::min_element(mesh.sizes), 0.99 * kSize);
+}
+
+TEST(NarrowPlaces, AreNotRefinedWhereFrozenOrSound) {
+  EXPECT_FALSE(was_refined(report_of(kuhn_cube(4), options_of_size())));
+  Options options = options_of_size();
+  options.freeze.insert = true;
+  EXPECT_FALSE(was_refined(report_of(low_step(), options)));
+  options.freeze.insert = false, options.freeze.surface = true;
+  EXPECT_FALSE(was_refined(report_of(low_step(), options)));
+}
+
+TEST(NarrowPlaces, AreTheSameAtAnyNumberOfThreads) {
+  TetMesh first = built(low_step());
+  remesh(first, {}, options_of_size());
+  for (const int threads : {1, 2, 3, 8}) {
+    Options options = options_of_size();
+    options.threads = threads;
+    TetMesh mesh = built(low_step());
+    EXPECT_TRUE(was_refined(remesh(mesh, {}, options)));
+    expect_same(mesh, first);
+  }
+}
+
+}  // namespace
+}  // namespace cavea::test
