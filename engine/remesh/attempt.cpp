@@ -60,11 +60,13 @@ std::vector<FailedPlace> Standard::failures(const TetMesh& mesh, const SurfaceDi
   return places;
 }
 
-std::vector<TetId> unsound_tets(const TetMesh& mesh) {
+std::vector<TetId> tets_below(const TetMesh& mesh, double quality) {
   std::vector<TetId> tets =
-      ids_where(mesh.tets.size(), [&](std::size_t t) { return mesh.qualities[t] < kSoundQuality; });
+      ids_where(mesh.tets.size(), [&](std::size_t t) { return mesh.qualities[t] < quality; });
   std::ranges::sort(tets, {}, [&](TetId t) { return std::pair(mesh.qualities[t], t); });
   return tets;
 }
+
+std::vector<TetId> unsound_tets(const TetMesh& mesh) { return tets_below(mesh, kSoundQuality); }
 
 }  // namespace cavea

@@ -50,7 +50,9 @@ struct Standard {
 /// No worse than the mesh is, but as far from the ideal surface as results may be.
 Standard standard_of(const TetMesh& mesh, const SurfaceDistance& distance);
 
-/// Tets below kSoundQuality, the worst first.
+/// Tets below a quality, the worst first.
+std::vector<TetId> tets_below(const TetMesh& mesh, double quality);
+/// Those below kSoundQuality.
 std::vector<TetId> unsound_tets(const TetMesh& mesh);
 
 }  // namespace cavea

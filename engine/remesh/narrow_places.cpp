@@ -10,6 +10,8 @@
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/repair.h"
 #include "cavea/remesh/rounds.h"
+#include "cavea/remesh/standing.h"
+#include "cavea/remesh/stubborn.h"
 
 namespace cavea {
 namespace {
@@ -17,10 +19,10 @@ namespace {
 /// Where more of the tets are unsound, the domain is to blame: walls that meet at small angles have
 /// as many of them in any size.
 constexpr double kFew = 0.005;
+/// Of tets that are sound, but poor, only so few are worth it.
+constexpr double kHardlyAny = 0.0005;
 /// Down to an eighth of the wanted size.
 constexpr int kHalvings = 3;
-/// Each leaves out the places where the last one was in vain.
-constexpr int kTrials = 4;
 
 Vec3 center_of(const TetMesh& mesh, TetId t) {
   const auto [a, b, c, d] = mesh.corners(t);
@@ -38,30 +40,47 @@ SizeSphere spot_around(const TetMesh& mesh, TetId t) {
   return spot;
 }
 
+/// What a refinement is for.
+struct Aim {
+  double quality;  ///< tets below it are to become fewer
+  int trials;      ///< each leaves out the places where the last one was in vain
+};
+
+constexpr Aim kAllSound{kSoundQuality, 4};
+/// All or nothing: there is no place to leave out.
+constexpr Aim kNonePoor{kPoorQuality, 1};
+
 class Refinement {
  public:
-  Refinement(Job& job, SurfaceDistance& distance, const std::function<SurfaceDistance()>& measure)
-      : job_(job), distance_(distance), measure_(measure) {}
+  Refinement(Job& job, const Aim& aim, SurfaceDistance& distance,
+             const std::function<SurfaceDistance()>& measure)
+      : job_(job), aim_(aim), distance_(distance), measure_(measure) {}
 
-  /// \return whether some tets have become sound
+  void refine() {
+    for (int k = 0; k < kHalvings; ++k)
+      if (!refine_once()) return;
+  }
+
+ private:
+  /// \return whether fewer tets are below the quality
   bool refine_once() {
-    for (int trial = 0; trial < kTrials; ++trial) {
+    for (int trial = 0; trial < aim_.trials; ++trial) {
       const std::vector<SizeSphere> spots = hopeful_spots();
       if (spots.empty()) return false;
-      if (refine(spots)) return true;
+      if (refine_at(spots)) return true;
     }
     return false;
   }
 
- private:
-  /// Around the unsound tets, but where that has failed or sizes are as small as they may be.
+  /// Around the tets below the quality, but where that has failed or sizes are as small as they may
+  /// be.
   std::vector<SizeSphere> hopeful_spots() const {
     const TetMesh& mesh = job_.mesh;
-    const std::vector<TetId> unsound = unsound_tets(mesh);
-    if (double(unsound.size()) > kFew * double(mesh.tets.size())) return {};
+    const std::vector<TetId> bad = tets_below(mesh, aim_.quality);
+    if (double(bad.size()) > kFew * double(mesh.tets.size())) return {};
     const double finest = finest_size(job_.r);
     std::vector<SizeSphere> spots;
-    for (const TetId t : unsound) {
+    for (const TetId t : bad) {
       SizeSphere spot = spot_around(mesh, t);
       const bool failed = std::ranges::any_of(
           failed_, [&](const FailedPlace& f) { return f.contains(spot.center); });
@@ -73,20 +92,19 @@ class Refinement {
   }
 
   /// False if that was in vain: then it is taken back, and its failures are known.
-  bool refine(const std::vector<SizeSphere>& spots) {
+  bool refine_at(const std::vector<SizeSphere>& spots) {
     job_.input.keep(job_.mesh);
     const Standard standard = standard_of(job_.mesh, distance_);
-    const std::vector<TetId> unsound = unsound_tets(job_.mesh);
+    const std::vector<TetId> bad = tets_below(job_.mesh, aim_.quality);
     std::vector<Vec3> centers;
-    for (const TetId t : unsound) centers.push_back(center_of(job_.mesh, t));
+    for (const TetId t : bad) centers.push_back(center_of(job_.mesh, t));
     Before before(job_);
     const SurfaceDistance distance_before = distance_;
-    job_.steps.timed("refining", [&] { lower_and_mend(spots, unsound); });
+    job_.steps.timed("refining", [&] { lower_and_mend(spots, bad); });
     distance_ = measure_();
-    const std::vector<TetId> left = unsound_tets(job_.mesh);
+    const std::vector<TetId> left = tets_below(job_.mesh, aim_.quality);
     const std::vector<Crossing> crossings = find_crossings(job_.mesh);
-    if (left.size() < unsound.size() && standard.is_met(job_.mesh, distance_, crossings))
-      return true;
+    if (left.size() < bad.size() && standard.is_met(job_.mesh, distance_, crossings)) return true;
     std::vector<Vec3> centers_left;
     for (const TetId t : left) centers_left.push_back(center_of(job_.mesh, t));
     add_failures(spots, centers, centers_left, standard.failures(job_.mesh, distance_, crossings));
@@ -95,18 +113,18 @@ class Refinement {
     return false;
   }
 
-  void lower_and_mend(const std::vector<SizeSphere>& spots, const std::vector<TetId>& unsound) {
+  void lower_and_mend(const std::vector<SizeSphere>& spots, const std::vector<TetId>& bad) {
     TetMesh& mesh = job_.mesh;
     const std::vector<float> sizes_before =
         job_.sizes.lower(mesh, job_.surface.model(), spots, finest_size(job_.r));
     ask_nothing(mesh);
     ask_changed_lengths(mesh, sizes_before);
-    for (const TetId t : unsound) mesh.tet_flags[t] |= tet_flag::kAskAll;
+    for (const TetId t : bad) mesh.tet_flags[t] |= tet_flag::kAskAll;
     run_phases(job_, mending_recipe(job_.r));
     mend_poor(job_);
   }
 
-  /// Spots that have as many unsound tets around them as before, and those near other failures.
+  /// Spots that have as many bad tets around them as before, and those near other failures.
   void add_failures(const std::vector<SizeSphere>& spots, const std::vector<Vec3>& before,
                     const std::vector<Vec3>& after, const std::vector<FailedPlace>& worse) {
     constexpr double kAround = 2;  // what is done in a spot changes what is beside it
@@ -123,6 +141,7 @@ class Refinement {
   }
 
   Job& job_;
+  const Aim aim_;
   SurfaceDistance& distance_;
   const std::function<SurfaceDistance()>& measure_;
   std::vector<FailedPlace> failed_;
@@ -134,9 +153,18 @@ void refine_narrow_places(Job& job, SurfaceDistance& distance,
                           const std::function<SurfaceDistance()>& measure) {
   const Freezes& freeze = job.r.freeze;
   if (job.keeping.stands || freeze.insert || freeze.surface || job.sizes.budget().binds()) return;
-  Refinement refinement(job, distance, measure);
-  for (int k = 0; k < kHalvings; ++k)
-    if (!refinement.refine_once()) return;
+  Refinement(job, kAllSound, distance, measure).refine();
+  const std::size_t poor = tets_below(job.mesh, kPoorQuality).size();
+  if (poor == 0 || double(poor) > kHardlyAny * double(job.mesh.tets.size()) ||
+      !unsound_tets(job.mesh).empty())
+    return;
+  job.input.keep(job.mesh);
+  Before before(job);
+  const SurfaceDistance distance_before = distance;
+  Refinement(job, kNonePoor, distance, measure).refine();
+  if (tets_below(job.mesh, kPoorQuality).empty()) return;
+  std::move(before).give_back(job);
+  distance = distance_before;
 }
 
 }  // namespace cavea

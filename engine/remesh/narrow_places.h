@@ -6,7 +6,7 @@
 
 namespace cavea {
 
-/// Where few tets are not sound, since the domain or what lies between its features is narrower
+/// Where few tets are not sound (then: hardly any is poor), since the domain or what lies between its features is narrower
 /// than the wanted sizes know, or only by chance: halves the sizes around them and mends what then
 /// is too long, up to three times. Each time all is taken back at the tets that this does not make
 /// fewer, and everywhere where the surface would be farther from the ideal one than it may be or
