@@ -1,12 +1,13 @@
 #include "cavea/remesh/narrow_places.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "cavea/field/spots.h"
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/attempt.h"
-#include "cavea/remesh/mending.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/repair.h"
 #include "cavea/remesh/rounds.h"
@@ -23,6 +24,9 @@ constexpr double kFew = 0.005;
 constexpr double kHardlyAny = 0.0005;
 /// Down to an eighth of the wanted size.
 constexpr int kHalvings = 3;
+
+/// What is done in a spot changes what is beside it.
+constexpr double kAround = 2;
 
 Vec3 center_of(const TetMesh& mesh, TetId t) {
   const auto [a, b, c, d] = mesh.corners(t);
@@ -43,12 +47,9 @@ SizeSphere spot_around(const TetMesh& mesh, TetId t) {
 /// What a refinement is for.
 struct Aim {
   double quality;  ///< tets below it are to become fewer
+  double growth;   ///< of sizes from where they are lowered
   int trials;      ///< each leaves out the places where the last one was in vain
 };
-
-constexpr Aim kAllSound{kSoundQuality, 4};
-/// All or nothing: there is no place to leave out.
-constexpr Aim kNonePoor{kPoorQuality, 1};
 
 class Refinement {
  public:
@@ -116,18 +117,31 @@ class Refinement {
   void lower_and_mend(const std::vector<SizeSphere>& spots, const std::vector<TetId>& bad) {
     TetMesh& mesh = job_.mesh;
     const std::vector<float> sizes_before =
-        job_.sizes.lower(mesh, job_.surface.model(), spots, finest_size(job_.r));
+        job_.sizes.lower(mesh, job_.surface.model(), spots, finest_size(job_.r), aim_.growth);
     ask_nothing(mesh);
     ask_changed_lengths(mesh, sizes_before);
     for (const TetId t : bad) mesh.tet_flags[t] |= tet_flag::kAskAll;
     run_phases(job_, mending_recipe(job_.r));
-    mend_poor(job_);
+    mend_near(spots);
+  }
+
+  /// Of the poor tets all others were asked before.
+  void mend_near(std::vector<SizeSphere> spots) {
+    constexpr int kMends = 3;
+    for (SizeSphere& s : spots) s.radius *= kAround;
+    const SizeField near = field_inside(std::move(spots));
+    const TetMesh& mesh = job_.mesh;
+    for (int k = 0; k < kMends; ++k) {
+      ask_nothing(job_.mesh);
+      ask_poor(job_.mesh, [&](TetId t) { return std::isfinite(near(center_of(mesh, t))); });
+      if (is_nothing_asked(mesh)) return;
+      run_phases(job_, poor_recipe(job_.r));
+    }
   }
 
   /// Spots that have as many bad tets around them as before, and those near other failures.
   void add_failures(const std::vector<SizeSphere>& spots, const std::vector<Vec3>& before,
                     const std::vector<Vec3>& after, const std::vector<FailedPlace>& worse) {
-    constexpr double kAround = 2;  // what is done in a spot changes what is beside it
     for (const SizeSphere& s : spots) {
       const FailedPlace around{s.center, kAround * s.radius};
       const auto count = [&](const std::vector<Vec3>& centers) {
@@ -147,24 +161,39 @@ class Refinement {
   std::vector<FailedPlace> failed_;
 };
 
+/// Takes all back if some tet stays below the quality.
+void refine_all_or_nothing(Job& job, const Aim& aim, SurfaceDistance& distance,
+                           const std::function<SurfaceDistance()>& measure) {
+  job.input.keep(job.mesh);
+  Before before(job);
+  const SurfaceDistance distance_before = distance;
+  Refinement(job, aim, distance, measure).refine();
+  if (tets_below(job.mesh, aim.quality).empty()) return;
+  std::move(before).give_back(job);
+  distance = distance_before;
+}
+
 }  // namespace
 
 void refine_narrow_places(Job& job, SurfaceDistance& distance,
                           const std::function<SurfaceDistance()>& measure) {
+  constexpr int kTrials = 4;
   const Freezes& freeze = job.r.freeze;
   if (job.keeping.stands || freeze.insert || freeze.surface || job.sizes.budget().binds()) return;
-  Refinement(job, kAllSound, distance, measure).refine();
+  const double steep = steepest_growth(job.r), slow = job.r.hgrad;
+  Refinement(job, {kSoundQuality, steep, kTrials}, distance, measure).refine();
+  if (job.r.uniform()) {
+    // Worth the lengths that do not conform only if it is the end of it.
+    if (slow < steep && !unsound_tets(job.mesh).empty())
+      refine_all_or_nothing(job, {kSoundQuality, slow, kTrials}, distance, measure);
+    return;
+  }
   const std::size_t poor = tets_below(job.mesh, kPoorQuality).size();
   if (poor == 0 || double(poor) > kHardlyAny * double(job.mesh.tets.size()) ||
       !unsound_tets(job.mesh).empty())
     return;
-  job.input.keep(job.mesh);
-  Before before(job);
-  const SurfaceDistance distance_before = distance;
-  Refinement(job, kNonePoor, distance, measure).refine();
-  if (tets_below(job.mesh, kPoorQuality).empty()) return;
-  std::move(before).give_back(job);
-  distance = distance_before;
+  constexpr int kOnce = 1;  // there is no place to leave out
+  refine_all_or_nothing(job, {kPoorQuality, slow, kOnce}, distance, measure);
 }
 
 }  // namespace cavea

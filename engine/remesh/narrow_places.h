@@ -6,13 +6,13 @@
 
 namespace cavea {
 
-/// Where few tets are not sound (then: hardly any is poor), since the domain or what lies between its features is narrower
-/// than the wanted sizes know, or only by chance: halves the sizes around them and mends what then
-/// is too long, up to three times. Each time all is taken back at the tets that this does not make
-/// fewer, and everywhere where the surface would be farther from the ideal one than it may be or
-/// was, pass through itself, or the worst tet be worse. Uniform sizes give way there, too, to an
-/// eighth at most, as in repairs.
-/// \param distance of the mesh from the ideal surface, kept in step by measure(), which may repair
+/// Where few tets are not sound (then: hardly any is poor), since the domain or what lies between
+/// its features is narrower than the wanted sizes know, or only by chance: halves the sizes around
+/// them and mends what then is too long, up to three times. Each time all is taken back at the tets
+/// that this does not make fewer, and everywhere where the surface would be farther from the ideal
+/// one than it may be or was, pass through itself, or the worst tet be worse. Uniform sizes give
+/// way there, too, to an eighth at most, as in repairs. \param distance of the mesh from the ideal
+/// surface, kept in step by measure(), which may repair
 void refine_narrow_places(Job& job, SurfaceDistance& distance,
                           const std::function<SurfaceDistance()>& measure);
 

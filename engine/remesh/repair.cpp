@@ -43,8 +43,9 @@ std::vector<SizeSphere> spots_of(const SurfaceDistance& distance, const TetMesh&
 
 void repair(Job& job, const SurfaceDistance& distance) {
   job.input.keep(job.mesh);
-  const std::vector<float> sizes_before = job.sizes.lower(
-      job.mesh, job.surface.model(), spots_of(distance, job.mesh, job.r), finest_size(job.r));
+  const std::vector<float> sizes_before =
+      job.sizes.lower(job.mesh, job.surface.model(), spots_of(distance, job.mesh, job.r),
+                      finest_size(job.r), steepest_growth(job.r));
   ask_nothing(job.mesh);
   ask_changed_lengths(job.mesh, sizes_before);
   run_phases(job, mending_recipe(job.r));
@@ -81,6 +82,11 @@ SurfaceDistance finish_and_measure(Job& job) {
 double finest_size(const ResolvedOptions& r) {
   constexpr double kFinest = 0.125;
   return r.uniform() ? kFinest * r.smallest : r.smallest;
+}
+
+double steepest_growth(const ResolvedOptions& r) {
+  constexpr double kBackToUniform = 1.8;
+  return r.uniform() ? std::max(r.hgrad, kBackToUniform) : r.hgrad;
 }
 
 SurfaceDistance measure_and_repair(Job& job) {

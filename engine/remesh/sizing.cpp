@@ -9,7 +9,6 @@
 #include "cavea/field/spots.h"
 
 namespace cavea {
-
 void Sizing::look_at(const TetMesh& mesh) {
   vary_ = !r_.uniform() || budget_.given() || r_.freeze.surface ||
           (r_.hgradreq && !required_sizes(mesh).empty());
@@ -28,13 +27,15 @@ void Sizing::set_curved(TetMesh& mesh, const SurfaceModel& surface) const {
 }
 
 std::vector<float> Sizing::lower(TetMesh& mesh, const SurfaceModel& surface,
-                                 std::vector<SizeSphere> spots, double finest) const {
+                                 std::vector<SizeSphere> spots, double finest, double hgrad) const {
   constexpr double kEndless = std::numeric_limits<double>::infinity();
   const SizeField in_spots = field_inside(std::move(spots));
   const auto on_surface = [&](const Anchor& a) {
     return a.facet == kNone ? kEndless : in_spots(surface.at(a));
   };
-  return lower_wanted_sizes(mesh, on_surface, bounds(std::min(r_.hmin, finest)));
+  SizeBounds rules = bounds(std::min(r_.hmin, finest));
+  rules.hgrad = hgrad;
+  return lower_wanted_sizes(mesh, on_surface, rules);
 }
 
 SizeLaw Sizing::law() const {

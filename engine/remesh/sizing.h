@@ -32,9 +32,9 @@ class Sizing {
   void set_curved(TetMesh& mesh, const SurfaceModel& surface) const;
   /// Vertices have moved since their sizes were set, so that set anew all would change a little:
   /// what the spots alone ask for, in the surface, counts where it is less. \param finest of the
-  /// spots \return the sizes before
+  /// spots \param hgrad how fast sizes rise from there \return the sizes before
   std::vector<float> lower(TetMesh& mesh, const SurfaceModel& surface,
-                           std::vector<SizeSphere> spots, double finest) const;
+                           std::vector<SizeSphere> spots, double finest, double hgrad) const;
 
   SizeLaw law() const;
 

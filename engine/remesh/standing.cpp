@@ -151,9 +151,10 @@ bool few_are_poor(const TetMesh& mesh) {
   return double(count_poor(mesh)) <= kFew * double(mesh.tets.size());
 }
 
-void ask_poor(TetMesh& mesh) {
+void ask_poor(TetMesh& mesh, const std::function<bool(TetId)>& concerns) {
   parallel_for(mesh.tets.size(), [&](std::size_t t) {
-    if (is_poor(mesh, TetId(t))) mesh.tet_flags[t] |= tet_flag::kAskAll;
+    if (is_poor(mesh, TetId(t)) && (!concerns || concerns(TetId(t))))
+      mesh.tet_flags[t] |= tet_flag::kAskAll;
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Whether a mesh stands: it is on the whole what a run would make of it.
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "cavea/mesh/tet_mesh.h"
@@ -62,7 +63,7 @@ bool poor_by_chance(const MeshSummary& now, std::int64_t poor);
 /// Whether so few are poor that they may be mended one by one.
 bool few_are_poor(const TetMesh& mesh);
 
-/// Asks the poor tets everything.
-void ask_poor(TetMesh& mesh);
+/// Asks the poor tets everything, or those of them that are concerned.
+void ask_poor(TetMesh& mesh, const std::function<bool(TetId)>& concerns = {});
 
 }  // namespace cavea
