@@ -30,7 +30,10 @@ bool stays_poor(std::int64_t left, std::int64_t poor) {
 }
 
 bool mended_by_chance(std::int64_t left, std::int64_t poor) {
-  return stays_poor(left, poor) || double(poor - left) < std::sqrt(double(poor));
+  constexpr double kByChance = 3;  // standard deviations of such a number
+  const double cured = double(poor - left);
+  return stays_poor(left, poor) ||
+         (cured < 0.5 * double(poor) && cured < kByChance * std::sqrt(double(poor)));
 }
 
 }  // namespace cavea

@@ -13,7 +13,8 @@ void mend_poor(Job& job);
 bool stays_poor(std::int64_t left, std::int64_t poor);
 
 /// The same of a mesh whose poor tets another run may have mended before: in sizes that are a
-/// little other, which a rerun finds, about the root of their number goes or comes by chance.
+/// little other, which a rerun finds, up to thrice the root of their number goes or comes by
+/// chance, unless that is half of them.
 bool mended_by_chance(std::int64_t left, std::int64_t poor);
 
 }  // namespace cavea

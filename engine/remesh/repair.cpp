@@ -61,7 +61,10 @@ bool may_repair(const Job& job, const SurfaceDistance& distance) {
          !job.sizes.budget().binds();
 }
 
-bool is_far(const SurfaceDistance& distance) { return distance.worse().worst > kMeasuredShare; }
+/// What stands is only to keep the tolerance: no sample of it is between those measured.
+bool is_far(const Job& job, const SurfaceDistance& distance) {
+  return distance.worse().worst > (job.keeping.stands ? 1 : kMeasuredShare);
+}
 
 /// The caller's last touch.
 void finish(Job& job) {
@@ -93,7 +96,7 @@ SurfaceDistance measure_and_repair(Job& job) {
   SurfaceDistance distance = finish_and_measure(job);
   int repairs = 0;
   const auto repair_all = [&] {
-    for (; repairs < kRepairs && may_repair(job, distance) && is_far(distance); ++repairs) {
+    for (; repairs < kRepairs && may_repair(job, distance) && is_far(job, distance); ++repairs) {
       job.steps.timed("repair", [&] { repair(job, distance); });
       distance = finish_and_measure(job);
     }

@@ -170,6 +170,8 @@ TEST(Standing, FewAreMendedByChance) {
   EXPECT_TRUE(mended_by_chance(94, 100));
   EXPECT_TRUE(mended_by_chance(124, 127));
   EXPECT_TRUE(mended_by_chance(8, 8));
+  EXPECT_TRUE(mended_by_chance(31, 42));
+  EXPECT_TRUE(mended_by_chance(44, 60));
   EXPECT_FALSE(mended_by_chance(0, 1));
   EXPECT_FALSE(mended_by_chance(3, 8));
   EXPECT_FALSE(mended_by_chance(850, 1000));
