@@ -20,8 +20,12 @@ namespace {
 /// Where more of the tets are unsound, the domain is to blame: walls that meet at small angles have
 /// as many of them in any size.
 constexpr double kFew = 0.005;
+/// However large the mesh is: each place is compared with all that have failed.
+constexpr std::size_t kMost = 10000;
 /// Of tets that are sound, but poor, only so few are worth it.
 constexpr double kHardlyAny = 0.0005;
+/// Two copies of a mesh of more tets would make it need more memory than all that came before.
+constexpr std::size_t kMostCopiedTwice = 10'000'000;
 /// Down to an eighth of the wanted size.
 constexpr int kHalvings = 3;
 
@@ -78,7 +82,7 @@ class Refinement {
   std::vector<SizeSphere> hopeful_spots() const {
     const TetMesh& mesh = job_.mesh;
     const std::vector<TetId> bad = tets_below(mesh, aim_.quality);
-    if (double(bad.size()) > kFew * double(mesh.tets.size())) return {};
+    if (bad.size() > kMost || double(bad.size()) > kFew * double(mesh.tets.size())) return {};
     const double finest = finest_size(job_.r);
     std::vector<SizeSphere> spots;
     for (const TetId t : bad) {
@@ -164,6 +168,7 @@ class Refinement {
 /// Takes all back if some tet stays below the quality.
 void refine_all_or_nothing(Job& job, const Aim& aim, SurfaceDistance& distance,
                            const std::function<SurfaceDistance()>& measure) {
+  if (job.mesh.tets.size() > kMostCopiedTwice) return;
   job.input.keep(job.mesh);
   Before before(job);
   const SurfaceDistance distance_before = distance;
