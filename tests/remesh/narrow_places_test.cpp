@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cavea/mesh/copy.h"
 #include "remesh/steps.h"
 #include "remesh/support.h"
 
@@ -44,6 +45,16 @@ TEST(NarrowPlaces, UniformSizesGiveWayWhereRidgesAreNear) {
   const double smallest = *std::ranges::min_element(mesh.sizes);
   EXPECT_LT(smallest, 0.9 * kSize);
   EXPECT_GE(smallest, 0.124 * kSize);
+}
+
+TEST(NarrowPlaces, OfAResultStayAsTheyAre) {
+  TetMesh mesh = built(low_step());
+  remesh(mesh, {}, options_of_size());
+  const TetMesh first = copy_of(mesh);
+  const Report again = remesh(mesh, {}, options_of_size());
+  EXPECT_GE(again.after.quality.worst, 0.3);
+  EXPECT_TRUE(mesh.points == first.points);
+  EXPECT_TRUE(mesh.tets == first.tets);
 }
 
 TEST(NarrowPlaces, WhatIsInVainIsTakenBack) {
