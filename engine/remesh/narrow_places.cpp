@@ -37,17 +37,6 @@ Vec3 center_of(const TetMesh& mesh, TetId t) {
   return (a + b + c + d) / 4;
 }
 
-/// Around the vertices of a tet, whatever rounding does.
-SizeSphere spot_around(const TetMesh& mesh, TetId t) {
-  constexpr double kReach = 1.01;
-  SizeSphere spot{center_of(mesh, t), 0, mesh.sizes[mesh.tets[t][0]]};
-  for (const VertexId v : mesh.tets[t]) {
-    spot.radius = std::max(spot.radius, kReach * distance(spot.center, mesh.points[v]));
-    spot.size = std::min(spot.size, double(mesh.sizes[v]));
-  }
-  return spot;
-}
-
 /// What a refinement is for.
 struct Aim {
   double quality;  ///< tets below it are to become fewer
@@ -86,7 +75,7 @@ class Refinement {
     const double finest = finest_size(job_.r);
     std::vector<SizeSphere> spots;
     for (const TetId t : bad) {
-      SizeSphere spot = spot_around(mesh, t);
+      SizeSphere spot = spot_over(mesh, center_of(mesh, t), mesh.tets[t]);
       const bool failed = std::ranges::any_of(
           failed_, [&](const FailedPlace& f) { return f.contains(spot.center); });
       if (failed || spot.size <= finest) continue;

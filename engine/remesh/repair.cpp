@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "cavea/remesh/asking.h"
@@ -20,13 +21,7 @@ constexpr int kRepairs = 10;
 /// Around the far sample's triangle. The distance goes with the square of the size; a little more
 /// for good measure.
 SizeSphere spot_around(const FarSample& f, const TetMesh& mesh, const ResolvedOptions& r) {
-  // The triangle's vertices are to lie inside the spot, whatever rounding does.
-  constexpr double kReach = 1.01;
-  SizeSphere spot{f.where, 0, r.largest};
-  for (const VertexId v : mesh.triangles[std::size_t(f.triangle)].v) {
-    spot.radius = std::max(spot.radius, kReach * distance(f.where, mesh.points[v]));
-    spot.size = std::min(spot.size, double(mesh.sizes[v]));
-  }
+  SizeSphere spot = spot_over(mesh, f.where, mesh.triangles[std::size_t(f.triangle)].v);
   const double factor = std::max(0.5, 0.75 * std::sqrt(kMeasuredShare * f.hausd / f.distance));
   spot.size = std::max(spot.size * factor, finest_size(r));
   return spot;
@@ -81,6 +76,17 @@ SurfaceDistance finish_and_measure(Job& job) {
 }
 
 }  // namespace
+
+SizeSphere spot_over(const TetMesh& mesh, const Vec3& center, std::span<const VertexId> vertices) {
+  // They are to lie inside, whatever rounding does.
+  constexpr double kReach = 1.01;
+  SizeSphere spot{center, 0, std::numeric_limits<double>::infinity()};
+  for (const VertexId v : vertices) {
+    spot.radius = std::max(spot.radius, kReach * distance(center, mesh.points[v]));
+    spot.size = std::min(spot.size, double(mesh.sizes[v]));
+  }
+  return spot;
+}
 
 double finest_size(const ResolvedOptions& r) {
   constexpr double kFinest = 0.125;

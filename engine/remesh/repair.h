@@ -1,8 +1,14 @@
 #pragma once
+#include <span>
+
+#include "cavea/field/size_regions.h"
 #include "cavea/remesh/job.h"
 #include "cavea/surface/distance.h"
 
 namespace cavea {
+
+/// A sphere around vertices that has the smallest of their sizes.
+SizeSphere spot_over(const TetMesh& mesh, const Vec3& center, std::span<const VertexId> vertices);
 
 /// The smallest size of repairs. The least of all bounds is a wish, but what bounds a uniform size
 /// from below would forbid them.
