@@ -10,6 +10,7 @@
 #include "cavea/base/buckets.h"
 #include "cavea/base/parallel.h"
 #include "cavea/base/wide.h"
+#include "cavea/geometry/centroid.h"
 #include "cavea/geometry/dihedral.h"
 #include "cavea/geometry/metric.h"
 #include "cavea/geometry/tet_block.h"
@@ -30,8 +31,6 @@ std::size_t equal_bin(double x, double top, std::size_t bins) {
   if (!(x > 0)) return 0;
   return std::min(bins - 1, std::size_t(x / top * double(bins)));
 }
-
-Vec3 centroid(const std::array<Vec3, 4>& p) { return 0.25 * (p[0] + p[1] + p[2] + p[3]); }
 
 constexpr double kDegree = std::numbers::pi / 180;
 

@@ -6,6 +6,7 @@
 
 #include "cavea/base/ids_where.h"
 #include "cavea/base/parallel.h"
+#include "cavea/geometry/centroid.h"
 #include "cavea/mesh/compact.h"
 #include "cavea/mesh/wanted_tets.h"
 #include "cavea/part/extract.h"
@@ -57,8 +58,7 @@ std::vector<std::int32_t> label_parts(const TetMesh& m, const std::vector<TetId>
   std::vector<std::array<std::int32_t, 4>> neighbors(n);
   parallel_for(n, [&](std::size_t i) {
     const TetId t = tets[i];
-    const auto [a, b, c, d] = m.corners(t);
-    centers[i] = (a + b + c + d) / 4;
+    centers[i] = centroid(m.corners(t));
     work[i] = float(1 + wanted_tets(m, t));
     for (int f = 0; f < 4; ++f) {
       const FaceLink link = m.across(t, f);

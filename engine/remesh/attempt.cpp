@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cavea/base/ids_where.h"
+#include "cavea/geometry/centroid.h"
 #include "cavea/remesh/stubborn.h"
 
 namespace cavea {
@@ -52,11 +53,8 @@ std::vector<FailedPlace> Standard::failures(const TetMesh& mesh, const SurfaceDi
       if (f.distance > farthest * f.hausd && f.triangle != kNone)
         add(f.where, mesh.triangles[std::size_t(f.triangle)].v);
   for (const Crossing& c : found) add(c.where, mesh.triangles[std::size_t(c.a)].v);
-  for (const TetId t : unsound_tets(mesh)) {
-    if (mesh.qualities[t] >= worst) continue;
-    const auto [a, b, c, d] = mesh.corners(t);
-    add((a + b + c + d) / 4, mesh.tets[t]);
-  }
+  for (const TetId t : unsound_tets(mesh))
+    if (mesh.qualities[t] < worst) add(centroid(mesh.corners(t)), mesh.tets[t]);
   return places;
 }
 

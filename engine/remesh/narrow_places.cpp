@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cavea/field/spots.h"
+#include "cavea/geometry/centroid.h"
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/attempt.h"
 #include "cavea/remesh/recipe.h"
@@ -32,9 +33,10 @@ constexpr int kHalvings = 3;
 /// What is done in a spot changes what is beside it.
 constexpr double kAround = 2;
 
-Vec3 center_of(const TetMesh& mesh, TetId t) {
-  const auto [a, b, c, d] = mesh.corners(t);
-  return (a + b + c + d) / 4;
+std::vector<Vec3> centers_of(const TetMesh& mesh, const std::vector<TetId>& tets) {
+  std::vector<Vec3> centers;
+  for (const TetId t : tets) centers.push_back(centroid(mesh.corners(t)));
+  return centers;
 }
 
 /// What a refinement is for.
@@ -58,24 +60,26 @@ class Refinement {
  private:
   /// \return whether fewer tets are below the quality
   bool refine_once() {
-    for (int trial = 0; trial < aim_.trials; ++trial) {
-      const std::vector<SizeSphere> spots = hopeful_spots();
-      if (spots.empty()) return false;
-      if (refine_at(spots)) return true;
+    const std::vector<TetId> bad = tets_below(job_.mesh, aim_.quality);
+    std::vector<SizeSphere> spots = hopeful_spots(bad);
+    if (spots.empty()) return false;
+    const Standard standard = standard_of(job_.mesh, distance_);
+    for (int trial = 0; trial < aim_.trials && !spots.empty(); ++trial) {
+      if (refine_at(spots, bad, standard)) return true;
+      spots = hopeful_spots(bad);
     }
     return false;
   }
 
-  /// Around the tets below the quality, but where that has failed or sizes are as small as they may
-  /// be.
-  std::vector<SizeSphere> hopeful_spots() const {
+  /// Around the bad tets, but where that has failed or sizes are as small as they may be; none if
+  /// they are too many.
+  std::vector<SizeSphere> hopeful_spots(const std::vector<TetId>& bad) const {
     const TetMesh& mesh = job_.mesh;
-    const std::vector<TetId> bad = tets_below(mesh, aim_.quality);
     if (bad.size() > kMost || double(bad.size()) > kFew * double(mesh.tets.size())) return {};
     const double finest = finest_size(job_.r);
     std::vector<SizeSphere> spots;
     for (const TetId t : bad) {
-      SizeSphere spot = spot_over(mesh, center_of(mesh, t), mesh.tets[t]);
+      SizeSphere spot = spot_over(mesh, centroid(mesh.corners(t)), mesh.tets[t]);
       const bool failed = std::ranges::any_of(
           failed_, [&](const FailedPlace& f) { return f.contains(spot.center); });
       if (failed || spot.size <= finest) continue;
@@ -86,12 +90,10 @@ class Refinement {
   }
 
   /// False if that was in vain: then it is taken back, and its failures are known.
-  bool refine_at(const std::vector<SizeSphere>& spots) {
+  bool refine_at(const std::vector<SizeSphere>& spots, const std::vector<TetId>& bad,
+                 const Standard& standard) {
     job_.input.keep(job_.mesh);
-    const Standard standard = standard_of(job_.mesh, distance_);
-    const std::vector<TetId> bad = tets_below(job_.mesh, aim_.quality);
-    std::vector<Vec3> centers;
-    for (const TetId t : bad) centers.push_back(center_of(job_.mesh, t));
+    const std::vector<Vec3> centers = centers_of(job_.mesh, bad);
     Before before(job_);
     const SurfaceDistance distance_before = distance_;
     job_.steps.timed("refining", [&] { lower_and_mend(spots, bad); });
@@ -99,9 +101,8 @@ class Refinement {
     const std::vector<TetId> left = tets_below(job_.mesh, aim_.quality);
     const std::vector<Crossing> crossings = find_crossings(job_.mesh);
     if (left.size() < bad.size() && standard.is_met(job_.mesh, distance_, crossings)) return true;
-    std::vector<Vec3> centers_left;
-    for (const TetId t : left) centers_left.push_back(center_of(job_.mesh, t));
-    add_failures(spots, centers, centers_left, standard.failures(job_.mesh, distance_, crossings));
+    add_failures(spots, centers, centers_of(job_.mesh, left),
+                 standard.failures(job_.mesh, distance_, crossings));
     std::move(before).give_back(job_);
     distance_ = distance_before;
     return false;
@@ -126,7 +127,7 @@ class Refinement {
     const TetMesh& mesh = job_.mesh;
     for (int k = 0; k < kMends; ++k) {
       ask_nothing(job_.mesh);
-      ask_poor(job_.mesh, [&](TetId t) { return std::isfinite(near(center_of(mesh, t))); });
+      ask_poor(job_.mesh, [&](TetId t) { return std::isfinite(near(centroid(mesh.corners(t)))); });
       if (is_nothing_asked(mesh)) return;
       run_phases(job_, poor_recipe(job_.r));
     }

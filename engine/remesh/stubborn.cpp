@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cavea/geometry/centroid.h"
 #include "cavea/operator/edge_collapse.h"
 #include "cavea/operator/edge_split.h"
 #include "cavea/operator/edge_star.h"
@@ -46,8 +47,7 @@ class Inquiry {
     for (const auto& e : kEdgeVertices) ask_edge(t, e[0], e[1]);
     for (int i = 0; i < 4; ++i) ask_face_and_vertex(t, i);
     add(settings_.swap, Operator::kReconnect, reconnect(context_, t, settings_.collapse, cavity_));
-    const auto [a, b, c, d] = mesh_.corners(t);
-    return {(a + b + c + d) / 4, mesh_.qualities[t], counts_of(verdicts_),
+    return {centroid(mesh_.corners(t)), mesh_.qualities[t], counts_of(verdicts_),
             obstacle_of(context_, t)};
   }
 
