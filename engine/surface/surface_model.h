@@ -141,8 +141,8 @@ class SurfaceModel {
   void set_sizes();
   void set_anchors(TetMesh& mesh) const;
   double curvature_of_fan(std::int32_t facet, int corner, std::vector<std::int32_t>& seen) const;
-  std::vector<double> curvatures() const;
-  double averaged(const std::vector<double>& kappas, std::int32_t v) const;
+  std::vector<std::array<double, 3>> curvatures() const;
+  double averaged(const std::vector<std::array<double, 3>>& kappas, std::int32_t v) const;
   double hausd_of(std::int32_t reference) const;
   double least_at(const Anchor& anchor, const std::vector<double>& of_facet) const;
   double size_tolerance(std::int32_t facet) const {
@@ -166,6 +166,10 @@ class SurfaceModel {
 
   Vec3 normal_on_curve(std::int32_t facet, const Anchor& anchor) const;
   std::int32_t corner_vertex(const Anchor& a) const;
+  /// Which corner of a facet one of its vertices is.
+  int corner_of(std::int32_t f, std::int32_t v) const {
+    return facets_[f][0] == v ? 0 : facets_[f][1] == v ? 1 : 2;
+  }
   Anchor anchor_of(std::int32_t v) const;
   WalkResult on_facet(const Vec3& guess, std::int32_t f) const;
   WalkResult walk(const Vec3& guess, WalkResult best) const;
@@ -217,7 +221,8 @@ class SurfaceModel {
       vertex_bulge_;  ///< largest distance of control points near it from the facets
   std::optional<Sheets> sheets_;
   std::optional<BoxTree> curve_tree_;
-  std::vector<double> sizes_;  ///< at the vertices
+  std::vector<double> sizes_;  ///< at the vertices, for all sheets and curves there
+  std::vector<std::array<double, 3>> corner_sizes_;  ///< of facets, for their own sheet
   std::vector<std::array<float, 3>>
       crease_sizes_;  ///< along the edge opposite corner k; infinite without a crease
   std::vector<std::int32_t> snapshot_vertex_;  ///< of the mesh's vertices, during construction only
@@ -238,7 +243,7 @@ void SurfaceModel::for_fan(std::int32_t facet, int corner, bool across_reference
       if (at == kNone) break;
       if (at == facet) return;  // once around
       f(at);
-      k = facets_[at][0] == v ? 0 : facets_[at][1] == v ? 1 : 2;
+      k = corner_of(at, v);
     }
   }
 }

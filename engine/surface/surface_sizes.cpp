@@ -73,48 +73,65 @@ double SurfaceModel::curvature_of_fan(std::int32_t facet, int corner,
   return std::min(std::abs(mean) + radius, 2 * steepest);
 }
 
-/// The largest principal curvature at each vertex, over its smooth fans.
-std::vector<double> SurfaceModel::curvatures() const {
-  std::vector<double> kappas(points_.size(), 0);
+/// The largest principal curvature of the smooth fan at each facet's corners.
+std::vector<std::array<double, 3>> SurfaceModel::curvatures() const {
+  std::vector<std::array<double, 3>> kappas(facets_.size());
   parallel_ranges(points_.size(), 256, [&](std::size_t begin, std::size_t end) {
     std::vector<std::int32_t> seen;
-    for (std::size_t v = begin; v < end; ++v)
+    for (std::size_t v = begin; v < end; ++v) {
+      const bool one_fan = vertex_curve_[v] == kNone;
+      double kappa = 0;
       for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i) {
         const std::int32_t f = vertex_facets_[i];
-        const int corner = facets_[f][0] == std::int32_t(v)   ? 0
-                           : facets_[f][1] == std::int32_t(v) ? 1
-                                                              : 2;
-        kappas[v] = std::max(kappas[v], curvature_of_fan(f, corner, seen));
-        if (vertex_curve_[v] == kNone) break;  // a single fan: all its facets give the same
+        const int corner = corner_of(f, std::int32_t(v));
+        if (!one_fan || i == vertex_first_[v]) kappa = curvature_of_fan(f, corner, seen);
+        kappas[f][corner] = kappa;
       }
+    }
   });
   return kappas;
 }
 
-/// The curvature at a vertex, averaged with those around if they are off the feature curves, too.
+/// The curvature at a vertex off the feature curves, averaged with those around that are, too.
 /// Cut surfaces and scans are rough at the scale of their facets, where a size that follows each
 /// vertex would ask for several times the tets that the shape does.
-double SurfaceModel::averaged(const std::vector<double>& kappas, std::int32_t v) const {
-  if (vertex_curve_[v] != kNone) return kappas[v];
-  double sum = 2 * kappas[v], weight = 2;  // twice, as two facets share each of those around
-  for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i)
-    for (const std::int32_t q : facets_[vertex_facets_[i]])
-      if (q != v && vertex_curve_[q] == kNone) sum += kappas[q], ++weight;
+double SurfaceModel::averaged(const std::vector<std::array<double, 3>>& kappas,
+                              std::int32_t v) const {
+  const std::int32_t first = vertex_facets_[vertex_first_[v]];
+  // Twice, as two facets share each of those around.
+  double sum = 2 * kappas[first][corner_of(first, v)], weight = 2;
+  for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i) {
+    const std::int32_t f = vertex_facets_[i];
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t q = facets_[f][k];
+      if (q != v && vertex_curve_[q] == kNone) sum += kappas[f][k], ++weight;
+    }
+  }
   return sum / weight;
 }
 
-/// h = sqrt(9 eps / (2 kappa)) at each vertex, smallest over its fans and its curve (paper, section
-/// 4.2); zero curvature gives hmax.
+/// h = sqrt(9 eps / (2 kappa)) (paper, section 4.2); zero curvature gives hmax. At the corners of
+/// facets for the curvature of their own sheet, at the vertices for those of all sheets and curves
+/// that meet there: a sheet that is flat may have large sizes next to a curve, as fast as the
+/// gradation lets them rise.
 void SurfaceModel::set_sizes() {
   auto size_of = [&](std::int32_t v, double kappa) {
     const double tolerance = vertex_tolerance(v);
     const double h = kappa > 0 ? std::sqrt(4.5 * tolerance / kappa) : settings_.hmax;
     return std::clamp(h, settings_.hmin, settings_.hmax);
   };
-  const std::vector<double> kappas = curvatures();
-  sizes_.resize(points_.size());
+  const std::vector<std::array<double, 3>> kappas = curvatures();
+  sizes_.assign(points_.size(), settings_.hmax);
+  corner_sizes_.resize(facets_.size());
   parallel_for(points_.size(), [&](std::size_t v) {
-    sizes_[v] = size_of(std::int32_t(v), averaged(kappas, std::int32_t(v)));
+    const bool inside = vertex_curve_[v] == kNone;
+    const double of_all = inside ? averaged(kappas, std::int32_t(v)) : 0;
+    for (std::int32_t i = vertex_first_[v]; i < vertex_first_[v + 1]; ++i) {
+      const std::int32_t f = vertex_facets_[i];
+      const int k = corner_of(f, std::int32_t(v));
+      corner_sizes_[f][k] = size_of(std::int32_t(v), inside ? of_all : kappas[f][k]);
+      sizes_[v] = std::min(sizes_[v], corner_sizes_[f][k]);
+    }
   });
   for (const CurveEdge& c : curves_)
     for (int end = 0; end < 2; ++end) {
@@ -226,9 +243,10 @@ double SurfaceModel::curved_size(const Anchor& anchor) const {
     const CurveEdge& c = curves_[curve_of(anchor.facet)];
     return (1 - anchor.u) * sizes_[c.v[0]] + anchor.u * sizes_[c.v[1]];
   }
-  const auto& v = facets_[anchor.facet];
-  const double h = (1 - double(anchor.u) - anchor.v) * sizes_[v[0]] + anchor.u * sizes_[v[1]] +
-                   anchor.v * sizes_[v[2]];
+  if (const std::int32_t corner = corner_vertex(anchor); corner != kNone) return sizes_[corner];
+  const auto& at_corner = corner_sizes_[anchor.facet];
+  const double h = (1 - double(anchor.u) - anchor.v) * at_corner[0] + anchor.u * at_corner[1] +
+                   anchor.v * at_corner[2];
   return size_near_creases(anchor.facet, at(anchor), h);
 }
 

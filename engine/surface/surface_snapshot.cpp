@@ -176,7 +176,7 @@ void SurfaceModel::set_normals(const std::vector<Vec3>& given) {
 /// Each fan once, for all of its facets.
 void SurfaceModel::set_normals_at(std::int32_t v, const Vec3& given) {
   constexpr double kShort = 0.05;  // of the fan's mean squared length
-  auto corner = [&](std::int32_t f) { return facets_[f][0] == v ? 0 : facets_[f][1] == v ? 1 : 2; };
+  auto corner = [&](std::int32_t f) { return corner_of(f, v); };
   const std::int32_t facets = vertex_first_[v + 1] - vertex_first_[v];
   std::vector<std::int32_t> fan;
   std::vector<FacetAngle> angles;

@@ -295,6 +295,25 @@ TEST(SurfaceModel, SizesFollowTheCurvature) {
   }
 }
 
+TEST(SurfaceModel, SizesOfASheetAreNotThoseOfTheCurvesAroundIt) {
+  const double wanted = std::sqrt(4.5 * test::kSettings.tolerance);
+  const auto cylinder = modelled_cylinder(4);
+  int on_lids = 0;
+  for (std::size_t f = 0; f < cylinder.model.facets(); ++f) {
+    const Anchor middle{std::int32_t(f), 1.f / 3, 1.f / 3};
+    const double z = cylinder.model.at(middle).z;
+    const bool on_lid = z == 0 || z == 1;
+    on_lids += on_lid;
+    const double expected = on_lid ? test::kSettings.hmax : wanted;
+    EXPECT_NEAR(cylinder.model.curved_size(middle), expected, 0.1 * expected);
+  }
+  EXPECT_GT(on_lids, 0);
+  for (std::size_t v = 0; v < cylinder.mesh.points.size(); ++v)
+    if (cylinder.mesh.vertex_tags[v] & tag::kRidge) {
+      EXPECT_NEAR(cylinder.model.curved_size(cylinder.mesh.anchors[v]), wanted, 0.1 * wanted);
+    }
+}
+
 /// A box of n x n x 1 cells, `thickness` high.
 MeshData plate(int n, double thickness) {
   MeshData data = kuhn_cube(n);
