@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "cavea/base/ids_where.h"
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/box_tree.h"
 #include "cavea/geometry/predicates.h"
@@ -43,8 +44,9 @@ std::optional<Vec3> crossing_of(const PlacedTriangle& a, const PlacedTriangle& b
   return {};
 }
 
-PlacedTriangle placed(const TetMesh& mesh, const Triangle& t) {
-  return {t.v, {mesh.points[t.v[0]], mesh.points[t.v[1]], mesh.points[t.v[2]]}};
+PlacedTriangle placed(const TetMesh& mesh, TriangleId t) {
+  const auto& v = mesh.triangles[t].v;
+  return {v, {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]}};
 }
 
 bool is_exterior(const Triangle& t) { return t.alive() && t.sides[1].is_unset(); }
@@ -57,28 +59,28 @@ Box box_of(const PlacedTriangle& t) {
 
 class Boundary {
  public:
-  explicit Boundary(const TetMesh& mesh) {
-    std::vector<Face> faces;
-    std::vector<Box> boxes;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (!is_exterior(mesh.triangles[t])) continue;
-      faces.push_back({TriangleId(t), placed(mesh, mesh.triangles[t])});
-      boxes.push_back(box_of(faces.back().triangle));
-    }
+  explicit Boundary(const TetMesh& mesh)
+      : mesh_(mesh), triangles_(ids_where(mesh.triangles.size(), [&](TriangleId t) {
+          return is_exterior(mesh.triangles[t]);
+        })) {
+    std::vector<Box> boxes(triangles_.size());
+    parallel_for(boxes.size(),
+                 [&](std::size_t i) { boxes[i] = box_of(placed(mesh, triangles_[i])); });
     tree_.emplace(boxes);
-    faces_.resize(faces.size()), boxes_.resize(faces.size());
-    parallel_for(faces.size(), [&](std::size_t slot) {
-      faces_[slot] = faces[std::size_t(tree_->order()[slot])];
-      boxes_[slot] = boxes[std::size_t(tree_->order()[slot])];
+    const std::vector<TriangleId> ids = triangles_;
+    boxes_.resize(boxes.size());
+    parallel_for(boxes.size(), [&](std::size_t slot) {
+      const auto i = std::size_t(tree_->order()[slot]);
+      triangles_[slot] = ids[i], boxes_[slot] = boxes[i];
     });
   }
 
   std::vector<Crossing> crossings() const {
-    std::vector<std::vector<Crossing>> found((faces_.size() + kGrain - 1) / kGrain);
+    std::vector<std::vector<Crossing>> found((triangles_.size() + kGrain - 1) / kGrain);
     parallel_for(
         found.size(),
         [&](std::size_t k) {
-          const std::size_t end = std::min(faces_.size(), (k + 1) * kGrain);
+          const std::size_t end = std::min(triangles_.size(), (k + 1) * kGrain);
           for (std::size_t i = k * kGrain; i < end; i += kTogether)
             look_around(i, std::min(end, i + kTogether), found[k]);
         },
@@ -92,11 +94,6 @@ class Boundary {
   }
 
  private:
-  struct Face {
-    TriangleId id;
-    PlacedTriangle triangle;
-  };
-
   /// Tests the triangles of some slots with all of later slots.
   void look_around(std::size_t begin, std::size_t end, std::vector<Crossing>& found) const {
     Box around;
@@ -109,13 +106,13 @@ class Boundary {
   }
 
   void test(std::size_t i, std::size_t j, std::vector<Crossing>& found) const {
-    const bool in_order = faces_[i].id < faces_[j].id;
-    const Face &a = faces_[in_order ? i : j], &b = faces_[in_order ? j : i];
-    if (const auto where = crossing_of(a.triangle, b.triangle))
-      found.push_back({a.id, b.id, *where});
+    const auto [a, b] = std::minmax(triangles_[i], triangles_[j]);
+    if (const auto where = crossing_of(placed(mesh_, a), placed(mesh_, b)))
+      found.push_back({a, b, *where});
   }
 
-  std::vector<Face> faces_;  ///< in the order of the slots
+  const TetMesh& mesh_;
+  std::vector<TriangleId> triangles_;  ///< in the order of the slots, as their boxes
   std::vector<Box> boxes_;
   std::optional<BoxTree> tree_;
 };
@@ -144,7 +141,7 @@ bool would_cross(const TetMesh& mesh, std::span<const PlacedTriangle> triangles,
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (is_exterior(mesh.triangles[t]) &&
         std::ranges::find(replaced, TriangleId(t)) == replaced.end() &&
-        crosses(placed(mesh, mesh.triangles[t]), triangles.size()))
+        crosses(placed(mesh, TriangleId(t)), triangles.size()))
       return true;
   return false;
 }

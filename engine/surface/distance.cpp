@@ -1,7 +1,7 @@
 #include "cavea/surface/distance.h"
 
 #include <cmath>
-#include <numeric>
+#include <functional>
 #include <optional>
 #include <tuple>
 
@@ -77,8 +77,9 @@ struct OutputSurface {
 
 /// Triangles that are a facet of the model are nearest to that one.
 void prefer_own_facets(std::span<const Corners> facets, OutputSurface& out) {
-  for (std::size_t t = 0; t < std::min(facets.size(), out.corners.size()); ++t)
+  parallel_for(std::min(facets.size(), out.corners.size()), [&](std::size_t t) {
     if (out.corners[t] == facets[t]) out.facets[t] = std::int32_t(t);
+  });
 }
 
 std::vector<Corners> facets_of(const SurfaceModel& model) {
@@ -341,8 +342,8 @@ struct DistanceMeter::Memory {
 
   void forget_what_changed(OutputSurface now) {
     if (out.corners.empty()) {
-      of_out.assign(now.corners.size(), {});
-      of_model.assign(facets.size(), {});
+      run_together([&] { of_out.assign(now.corners.size(), {}); },
+                   [&] { of_model.assign(facets.size(), {}); });
       out = std::move(now);
       return;
     }
@@ -385,12 +386,15 @@ struct DistanceMeter::Memory {
   void sample() {
     const auto is_known = [](const Sampled& s) { return s.count > 0 && s.exact; };
     if (std::ranges::all_of(of_out, is_known) && std::ranges::all_of(of_model, is_known)) return;
-    if (!patches) patches.emplace(model);
+    std::optional<FacetTree> tree;
+    run_together([&] { tree.emplace(out.corners); },
+                 [&] {
+                   if (!patches) patches.emplace(model);
+                 });
     const double small = sampling.enough * least_hausd;
     const FromModel from_model(out, model, *patches, least_hausd, small);
     Sampler(out.corners, sampling, lattices, least_hausd, true, from_model).sample_all(of_out);
-    const FacetTree tree(out.corners);
-    const FromOutput from_output(out, model, tree, small);
+    const FromOutput from_output(out, model, *tree, small);
     Sampler(facets, sampling, lattices, least_hausd, false, from_output).sample_all(of_model);
   }
 
@@ -431,23 +435,49 @@ SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel
   return DistanceMeter(model, {step, most, enough}).measure(mesh);
 }
 
+namespace {
+
+/// Of the longest edges of triangles, the root of the mean square.
+template <class Triangle>
+double mean_edge(std::size_t n, Triangle&& triangle) {
+  const double sum = parallel_reduce(
+      n, 0.0,
+      [&](std::size_t begin, std::size_t end) {
+        double here = 0;
+        for (std::size_t i = begin; i < end; ++i) here += longest_edge2(triangle(i));
+        return here;
+      },
+      std::plus<>{});
+  return n == 0 ? 0 : std::sqrt(sum / double(n));
+}
+
+}  // namespace
+
 double default_sample_step(const TetMesh& mesh, const SurfaceModel& model) {
   constexpr double kStepsAcrossBox = 400;
   // A lattice of 9 intervals has 55 points.
   constexpr double kMeanIntervals = 9;
-  Box box;
-  auto mean_edge = [](std::span<const Corners> triangles) {
-    std::vector<double> longest2(triangles.size());
-    parallel_for(longest2.size(),
-                 [&](std::size_t t) { longest2[t] = longest_edge2(triangles[t]); });
-    const double sum = std::accumulate(longest2.begin(), longest2.end(), 0.0);
-    return triangles.empty() ? 0 : std::sqrt(sum / double(triangles.size()));
+  const auto facet = [&](std::size_t f) { return model.facet_corners(std::int32_t(f)); };
+  const std::vector<TriangleId> ids =
+      ids_where(mesh.triangles.size(), [&](TriangleId t) { return mesh.triangles[t].alive(); });
+  const auto triangle = [&](std::size_t i) -> Corners {
+    const auto& v = mesh.triangles[ids[i]].v;
+    return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
   };
-  const std::vector<Corners> facets = facets_of(model);
-  for (const Corners& t : facets)
-    for (const Vec3& p : t) box.add(p);
-  const double coarse = std::max(mean_edge(facets), mean_edge(OutputSurface(mesh).corners));
-  const double diagonal = facets.empty() ? 0 : distance(box.low, box.high);
+  const double coarse = std::max(mean_edge(model.facets(), facet), mean_edge(ids.size(), triangle));
+  const Box box = parallel_reduce(
+      model.facets(), Box{},
+      [&](std::size_t begin, std::size_t end) {
+        Box here;
+        for (std::size_t f = begin; f < end; ++f)
+          for (const Vec3& p : facet(f)) here.add(p);
+        return here;
+      },
+      [](Box a, const Box& b) {
+        a.add(b);
+        return a;
+      });
+  const double diagonal = box.empty() ? 0 : distance(box.low, box.high);
   // Any step does for surfaces without extent.
   const double step = std::max(diagonal / kStepsAcrossBox, coarse / kMeanIntervals);
   return step > 0 ? step : 1;
