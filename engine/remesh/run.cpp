@@ -20,7 +20,10 @@ Run::Run(Input& input, const SizeField& field, const Options& options, Effort ef
 void Run::operator()() {
   job_.steps.timed("analysis", [&] { analyse(); });
   job_.keeping = keep_what_stands(job_, effort_);
-  if (!job_.keeping.stands) job_.steps.timed("contraction", [&] { coarsen_in_bulk(job_); });
+  if (!job_.keeping.stands) {
+    refuse_too_large(job_.mesh, job_.sizes.law(), job_.most_bytes);
+    job_.steps.timed("contraction", [&] { coarsen_in_bulk(job_); });
+  }
   if (!job_.keeping.leaves_all()) job_.input.keep(job_.mesh);
   adapt(job_.keeping.stands ? standing_recipe(job_.r) : recipe(job_.r, fill(job_)));
 }
@@ -64,7 +67,6 @@ void Run::analyse() {
   ask_all(mesh);
   job_.sizes.look_at(mesh);
   job_.resize();
-  refuse_too_large(mesh, job_.sizes.law(), job_.most_bytes);
   const Budget& budget = job_.sizes.budget();
   if (budget.binds()) job_.surface.loosen(mesh, budget.scale());
   mesh.normals.clear();

@@ -305,17 +305,17 @@ double measure_bulge(const SurfaceModel& model) {
   const Lattice lattice(6);
   constexpr std::size_t kBatch = 1024;  // after which those that cannot be higher are left out
   constexpr std::size_t kGrain = 32;
-  const std::vector<Corners> facets = facets_of(model);
-  std::vector<std::pair<double, std::size_t>> highest_first(facets.size());
-  parallel_for(facets.size(), [&](std::size_t f) {
+  const std::size_t facets = model.facets();
+  std::vector<std::pair<double, std::size_t>> highest_first(facets);
+  parallel_for(facets, [&](std::size_t f) {
     highest_first[f] = {-offset_bound(model.patch_of_facet(std::int32_t(f))), f};
   });
   parallel_sort(highest_first.begin(), highest_first.end());
-  if (facets.empty()) return 0;
+  if (facets == 0) return 0;
   if (-highest_first[0].first <= kRounding * least_hausd_of(model)) return -highest_first[0].first;
-  std::vector<double> bulge2(facets.size(), 0);
+  std::vector<double> bulge2(facets, 0);
   const auto sample = [&](std::size_t f) {
-    const Corners& own = facets[f];
+    const Corners own = model.facet_corners(std::int32_t(f));
     for (const auto& [u, v] : lattice.places()) {
       const Vec3 x = model.patch_of_facet(std::int32_t(f)).at(u, v);
       // The other facets matter only to a sample that would raise the largest distance.
@@ -325,9 +325,9 @@ double measure_bulge(const SurfaceModel& model) {
     }
   };
   double bulge = 0;
-  for (std::size_t begin = 0; begin < facets.size(); begin += kBatch) {
+  for (std::size_t begin = 0; begin < facets; begin += kBatch) {
     if (-highest_first[begin].first <= bulge) break;
-    const std::size_t count = std::min(kBatch, facets.size() - begin);
+    const std::size_t count = std::min(kBatch, facets - begin);
     parallel_for(
         count, [&](std::size_t i) { sample(highest_first[begin + i].second); }, kGrain);
     for (std::size_t i = 0; i < count; ++i)
