@@ -120,9 +120,10 @@ void SurfaceModel::set_sizes() {
     const double h = kappa > 0 ? std::sqrt(4.5 * tolerance / kappa) : settings_.hmax;
     return std::clamp(h, settings_.hmin, settings_.hmax);
   };
-  const std::vector<std::array<double, 3>> kappas = curvatures();
   sizes_.assign(points_.size(), settings_.hmax);
-  corner_sizes_.resize(facets_.size());
+  corner_sizes_.assign(facets_.size(), {settings_.hmax, settings_.hmax, settings_.hmax});
+  if (settings_.hmin == settings_.hmax) return;
+  const std::vector<std::array<double, 3>> kappas = curvatures();
   parallel_for(points_.size(), [&](std::size_t v) {
     const bool inside = vertex_curve_[v] == kNone;
     const double of_all = inside ? averaged(kappas, std::int32_t(v)) : 0;
