@@ -3,8 +3,7 @@
 namespace cavea {
 
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  if (certainly_positive(a, b, c, d)) return 1;
-  if (certainly_positive(a, b, d, c)) return -1;
+  if (const int side = certain_side(a, b, c, d)) return side;
   using Quad = __float128;
   auto difference = [](const Vec3& p, const Vec3& q, Quad out[3]) {
     for (int k = 0; k < 3; ++k) out[k] = Quad(q[k]) - Quad(p[k]);

@@ -11,10 +11,9 @@ inline double volume6(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
   return dot(b - a, cross(c - a, d - a));
 }
 
-/// Whether the volume of (a, b, c, d) is certainly positive: six times the rounded volume exceeds
-/// the bound of its rounding error (Shewchuk 1997, the static filter of orient3d). Never true for a
-/// flat or inverted tetrahedron; may be false for one that is positive by less than the bound.
-inline bool certainly_positive(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+/// Sign of the volume of (a, b, c, d) where six times the rounded volume exceeds the bound of its
+/// rounding error (Shewchuk 1997, the static filter of orient3d), and 0 elsewhere.
+inline int certain_side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   constexpr double kOrient3dErrorBound = 7.7715611723761027e-16;  // (7 + 56 u) u, u = 2^-53
   const Vec3 u = b - a, v = c - a, w = d - a;
   const double vw = v.y * w.z, wv = v.z * w.y, vx = v.z * w.x, wx = v.x * w.z, vy = v.x * w.y,
@@ -23,7 +22,14 @@ inline bool certainly_positive(const Vec3& a, const Vec3& b, const Vec3& c, cons
   const double permanent = std::abs(u.x) * (std::abs(vw) + std::abs(wv)) +
                            std::abs(u.y) * (std::abs(vx) + std::abs(wx)) +
                            std::abs(u.z) * (std::abs(vy) + std::abs(wy));
-  return det > kOrient3dErrorBound * permanent;
+  const double bound = kOrient3dErrorBound * permanent;
+  return int(det > bound) - int(det < -bound);
+}
+
+/// Whether the volume of (a, b, c, d) is certainly positive. Never true for a flat or inverted
+/// tetrahedron; may be false for one that is positive by less than the bound.
+inline bool certainly_positive(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return certain_side(a, b, c, d) > 0;
 }
 
 /// Sign of the volume of (a, b, c, d): 1, 0 or -1. Filtered; where the filter fails the determinant

@@ -83,6 +83,8 @@ void conclude(Job& job, const SurfaceDistance& distance) {
                [&] {
                  report.after = is_as_before(job) ? report.before : summary_of(mesh);
                  report.interface_quality = interface_quality(mesh);
+                 if (job.options.directions)
+                   report.directions = surface_directions(mesh, job.surface.model());
                });
   report.verdicts = counts_of(job.verdicts);
   report.stubborn = find_stubborn(mesh, job.surface.working_model(), last_phase(job.r).cycle,

@@ -90,8 +90,6 @@ void Run::adapt(const std::vector<Phase>& phases) {
   mend_poor(job_);
   const SurfaceDistance distance = measure_and_repair(job_);
   job_.steps.timed("statistics", [&] { conclude(job_, distance); });
-  if (job_.options.directions)
-    job_.report.directions = surface_directions(job_.mesh, job_.surface.model());
   job_.report.peak_resident_bytes = peak_resident_bytes();
 }
 

@@ -15,11 +15,6 @@ namespace {
 /// Triangles a task, and so many neighbours in the tree that look for others together.
 constexpr std::size_t kGrain = 256, kTogether = 8;
 
-/// Sign of the volume of (a, b, c, d), 0 where rounding leaves it open.
-int side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return certainly_positive(a, b, c, d) ? 1 : certainly_positive(b, a, c, d) ? -1 : 0;
-}
-
 /// Whether edge k of a triangle passes through the inside of one that has neither of its ends.
 bool passes(const PlacedTriangle& of, std::size_t k, const PlacedTriangle& t) {
   const std::size_t next = (k + 1) % 3;
@@ -27,10 +22,10 @@ bool passes(const PlacedTriangle& of, std::size_t k, const PlacedTriangle& t) {
     if (v == of.v[k] || v == of.v[next]) return false;
   const Vec3 &p = of.corners[k], &q = of.corners[next];
   const auto& [a, b, c] = t.corners;
-  const int above = side(a, b, c, p);
-  if (above == 0 || side(a, b, c, q) != -above) return false;
-  const int turn = side(p, q, a, b);
-  return turn != 0 && side(p, q, b, c) == turn && side(p, q, c, a) == turn;
+  const int above = certain_side(a, b, c, p);
+  if (above == 0 || certain_side(a, b, c, q) != -above) return false;
+  const int turn = certain_side(p, q, a, b);
+  return turn != 0 && certain_side(p, q, b, c) == turn && certain_side(p, q, c, a) == turn;
 }
 
 /// The middle of an edge of one triangle that passes through the other, if there is any.
