@@ -1,4 +1,6 @@
 
+#include <bit>
+
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/box.h"
 #include "cavea/mesh/statistics.h"
@@ -108,10 +110,18 @@ std::int64_t count_components(const TetMesh& mesh) {
   UnionFind sets(mesh.tets.size());
   parallel_for(mesh.tets.size(), [&](std::size_t t) {
     if (!mesh.tet_alive(TetId(t))) return;
-    for (int f = 0; f < 4; ++f)
-      // Each face once; most tets are behind one of lower id.
-      if (const FaceLink behind = mesh.across(TetId(t), f);
-          behind.is_tet() && behind.tet() < TetId(t))
+    // Each face once. Behind which a tet of lower id is cannot be guessed: a bit for each.
+    unsigned lower = 0, triangles = 0;
+    for (int f = 0; f < 4; ++f) {
+      const FaceLink link = mesh.links[t][f];
+      lower |= unsigned(link.is_tet() && link.tet() < TetId(t)) << f;
+      triangles |= unsigned(link.is_triangle()) << f;
+    }
+    for (; lower != 0; lower &= lower - 1)
+      sets.join(TetId(t), mesh.links[t][std::countr_zero(lower)].tet());
+    for (; triangles != 0; triangles &= triangles - 1)
+      if (const FaceLink behind = mesh.across(TetId(t), std::countr_zero(triangles));
+          behind.is_tet())
         sets.join(TetId(t), behind.tet());
   });
   return count_roots(mesh.tets.size(), sets,

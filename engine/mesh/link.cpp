@@ -286,8 +286,8 @@ void link_faces(TetMesh& mesh) {
 
 namespace {
 
-/// The faces of a choice by their smallest vertices.
-Buckets faces_by_vertices(const TetMesh& mesh, FaceChoice choice) {
+/// The codes of the faces of a choice, which are few of all: each is asked once.
+std::vector<std::uint32_t> chosen_faces(const TetMesh& mesh, FaceChoice choice) {
   // Most meshes have one reference: then nobody need look up that of each neighbour.
   const bool one_reference =
       std::ranges::adjacent_find(mesh.tet_refs, std::not_equal_to{}) == mesh.tet_refs.end();
@@ -295,11 +295,28 @@ Buckets faces_by_vertices(const TetMesh& mesh, FaceChoice choice) {
     if (choice == FaceChoice::kAll) return true;
     return one_reference ? mesh.links[t][f].is_unset() : is_surface_face(mesh, t, f);
   };
-  return Buckets(mesh.tets.size(), mesh.points.size(), [&](std::size_t t, auto&& put) {
-    if (!mesh.tet_alive(TetId(t))) return;
-    for (int f = 0; f < 4; ++f)
-      if (is_chosen(TetId(t), f))
-        put(sorted(face_vertices(mesh.tets[t], f))[0], static_cast<std::uint32_t>(4 * t + f));
+  std::vector<std::vector<std::uint32_t>> of_blocks((mesh.tets.size() + kReduceBlock - 1) /
+                                                    kReduceBlock);
+  parallel_for(
+      of_blocks.size(),
+      [&](std::size_t b) {
+        const std::size_t end = std::min(mesh.tets.size(), (b + 1) * kReduceBlock);
+        for (std::size_t t = b * kReduceBlock; t < end; ++t)
+          for (int f = 0; mesh.tet_alive(TetId(t)) && f < 4; ++f)
+            if (is_chosen(TetId(t), f)) of_blocks[b].push_back(std::uint32_t(4 * t) + unsigned(f));
+      },
+      1);
+  std::vector<std::uint32_t> codes;
+  for (const auto& some : of_blocks) codes.insert(codes.end(), some.begin(), some.end());
+  return codes;
+}
+
+/// The faces of a choice by their smallest vertices.
+Buckets faces_by_vertices(const TetMesh& mesh, FaceChoice choice) {
+  const std::vector<std::uint32_t> codes = chosen_faces(mesh, choice);
+  return Buckets(codes.size(), mesh.points.size(), [&](std::size_t i, auto&& put) {
+    const std::uint32_t code = codes[i];
+    put(sorted(face_vertices(mesh.tets[code >> 2], int(code & 3)))[0], code);
   });
 }
 
