@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -60,10 +61,18 @@ void parallel_for(std::size_t n, F&& f, std::size_t grain = 1024,
       partitioner);
 }
 
-/// Calls f(i) for each i in [0, n), one task each, started in the order of i: for few large tasks.
+/// Calls f(i) for each i in [0, n), started in the order of i: for few large tasks.
 template <class F>
 void parallel_tasks(std::size_t n, F&& f) {
-  parallel_for(n, f, 1, tbb::simple_partitioner{});
+  // A range would be halved, and its second half begun before the end of its first.
+  std::atomic<std::size_t> next{0};
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  parallel_for(
+      std::min(n, threads),
+      [&](std::size_t) {
+        for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < n;) f(i);
+      },
+      1, tbb::simple_partitioner{});
 }
 
 /// Calls f() and g() at the same time, if there is a thread for each: while one of them has work

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <numeric>
 #include <vector>
@@ -57,6 +58,21 @@ TEST(ParallelLoops, VisitEachIndexOnce) {
     });
     EXPECT_EQ(loop, std::vector<int>(n, 1));
     EXPECT_EQ(tasks, std::vector<int>(n, 1));
+  }
+}
+
+TEST(ParallelTasks, AreStartedInOrder) {
+  constexpr std::size_t kTasks = 1000;
+  for (const int threads : kThreads) {
+    std::atomic<std::size_t> started{0};
+    std::vector<std::size_t> before(kTasks);
+    run_in_arena(threads, [&] {
+      parallel_tasks(kTasks, [&](std::size_t i) { before[i] = started.fetch_add(1); });
+    });
+    // A thread may be held up after it has taken a task: all others may be ahead of that one, but
+    // a task that is counted early was taken after all before it.
+    for (std::size_t i = 0; i < kTasks; ++i)
+      EXPECT_LT(i, before[i] + std::size_t(threads)) << threads << " threads";
   }
 }
 
