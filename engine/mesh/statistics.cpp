@@ -235,6 +235,25 @@ QualityStatistics quality_statistics(const TetMesh& mesh) {
   return out;
 }
 
+double mean_quality(const TetMesh& mesh) {
+  struct Sum {
+    double quality = 0;
+    std::int64_t tets = 0;
+  };
+  const Sum sum = parallel_reduce(
+      mesh.tets.size(), Sum{},
+      [&](std::size_t begin, std::size_t end) {
+        Sum here;
+        for (std::size_t t = begin; t < end; ++t)
+          if (mesh.tet_alive(TetId(t))) here.quality += mesh.qualities[t], ++here.tets;
+        return here;
+      },
+      [](const Sum& a, const Sum& b) {
+        return Sum{a.quality + b.quality, a.tets + b.tets};
+      });
+  return sum.tets == 0 ? 0 : sum.quality / double(sum.tets);
+}
+
 LengthStatistics length_statistics(const TetMesh& mesh) {
   Buckets edges = edge_ends(mesh);
   const LengthSum total = parallel_reduce(

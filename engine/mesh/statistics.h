@@ -56,8 +56,10 @@ struct Counts {
   double box_diagonal() const { return distance(box_min, box_max); }
 };
 
-/// All three skip holes and give the same bits for any number of threads.
+/// All of these skip holes and give the same bits for any number of threads.
 QualityStatistics quality_statistics(const TetMesh& mesh);
+/// The mean of mesh.qualities; 0 without tets.
+double mean_quality(const TetMesh& mesh);
 /// Lengths in the metric of mesh.sizes, which must be positive at every vertex.
 LengthStatistics length_statistics(const TetMesh& mesh);
 Counts count(const TetMesh& mesh);

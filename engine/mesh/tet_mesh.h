@@ -81,6 +81,12 @@ inline constexpr Tag kGiven = 16384;
 inline constexpr Tag kOnCurve = kRidge | kReferenceEdge | kNonManifold;
 /// What makes a surface edge one that patches end at.
 inline constexpr Tag kFeature = kOnCurve | kRequired;
+
+/// Whether nothing binds a vertex of these tags: it is inside of the volume, and what it has are at
+/// most tags of parts.
+constexpr bool is_unbound(Tag of_vertex) {
+  return (of_vertex & ~(kWasInterface | kMetInterface)) == 0;
+}
 }  // namespace tag
 
 /// Where a surface vertex stands on the frozen input surface: a facet of the snapshot and the

@@ -6,6 +6,7 @@
 #include "cavea/mesh/statistics.h"
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/bulk.h"
+#include "cavea/remesh/evening.h"
 #include "cavea/remesh/rounds.h"
 #include "cavea/remesh/seeding.h"
 
@@ -21,6 +22,14 @@ constexpr double kOfNeedles = 0.2;
 /// the Delaunay kernel (0.52 to 0.63 on plates and tubes): as good as lattices would make them.
 /// Where that has failed it is below 0.45.
 constexpr double kGoodWithoutSeeds = 0.5;
+
+/// Of all vertices.
+constexpr double kFew = 0.05, kMost = 0.5, kNearlyAll = 0.8;
+
+/// Mean quality of seeds that were evened out where they are left at that, but for the worst: 0.82
+/// to 0.87 where sizes rise by up to 0.2 of the way. By 0.26, which the gradation allows at most,
+/// it is 0.74.
+constexpr double kEven = 0.8;
 
 /// \return the mesh before, if it was refined
 std::optional<TetMesh> refine(Job& job, BulkEdges which) {
@@ -38,14 +47,26 @@ std::optional<TetMesh> refine_among_needles(Job& job) {
   return before;
 }
 
-std::int64_t seed(Job& job) {
-  if (!job.r.freeze.collapse) tag_replaceable(job.mesh);
-  const std::int64_t seeds =
-      seed_interior(job.mesh, job.sizes.law(), job.options.cancel, job.verdicts);
-  if (job.sizes.vary() && seeds > 0) job.resize();
-  ask_all(job.mesh);
-  trust_good_tets(job.mesh);
-  return seeds;
+struct Seeded {
+  double share = 0;      ///< of all vertices
+  bool is_even = false;  ///< where lattices of different sizes meet, too
+};
+
+Seeded seed(Job& job) {
+  TetMesh& mesh = job.mesh;
+  if (!job.r.freeze.collapse) tag_replaceable(mesh);
+  const std::int64_t seeds = seed_interior(mesh, job.sizes.law(), job.options.cancel, job.verdicts);
+  Seeded result{double(seeds) / double(mesh.points.size())};
+  if (job.sizes.vary() && seeds > 0) {
+    if (result.share >= kNearlyAll && !job.r.uniform() && !job.r.freeze.move) {
+      even_out(mesh);
+      result.is_even = mean_quality(mesh) >= kEven;
+    }
+    job.resize();
+  }
+  ask_all(mesh);
+  trust_good_tets(mesh);
+  return result;
 }
 
 }  // namespace
@@ -60,7 +81,6 @@ void coarsen_in_bulk(Job& job) {
 
 Seeds fill(Job& job) {
   if (job.r.freeze.insert) return Seeds::kAbsent;
-  constexpr double kFew = 0.05, kMost = 0.5, kNearlyAll = 0.8;  // of all vertices
   TetMesh& mesh = job.mesh;
   std::optional<TetMesh> before;
   const bool of_needles = job.report.before.quality.mean < kOfNeedles;
@@ -73,13 +93,14 @@ Seeds fill(Job& job) {
   // What the interfaces of so few parts leave is little, and fine asks for it.
   if (of_needles) thin.rounds = 1;
   job.steps.timed(thin.name, [&] { run_phase(job, thin); });
-  std::int64_t seeds = 0;
-  job.steps.timed("seeding", [&] { seeds = seed(job); });
-  const double share = double(seeds) / double(mesh.points.size());
+  Seeded seeded;
+  job.steps.timed("seeding", [&] { seeded = seed(job); });
+  const double share = seeded.share;
+  if (seeded.is_even) return Seeds::kEven;
   if (share >= kNearlyAll) return Seeds::kNearlyAll;
   if (share >= kMost) return Seeds::kMost;
   if (!divided || share >= kFew) return Seeds::kSome;
-  if (of_needles && quality_statistics(mesh).mean >= kGoodWithoutSeeds) return Seeds::kSome;
+  if (of_needles && mean_quality(mesh) >= kGoodWithoutSeeds) return Seeds::kSome;
   // Too thin for seeds: a fine surface around what is coarse inside is then hard to mend.
   mesh = *std::move(before);
   job.steps.timed("bulk", [&] { refine(job, BulkEdges::kAll); });

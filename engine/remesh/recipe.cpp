@@ -19,7 +19,7 @@ constexpr double kFittedEdge = 1.5;
 constexpr double kRoughLong = 2.0, kRoughShort = 0.4;
 
 /// Lengths between seeds are no farther off than this where it is for swaps and relocation to mend.
-constexpr double kEvenedOut = 1.25;
+constexpr double kEven = 1.25;
 
 /// Each level makes twice the tets, of which few are at the interface: parts pay early.
 constexpr std::int64_t kOneSurfacePart = 2000;
@@ -82,6 +82,16 @@ Phase polish(const ResolvedOptions& o) {
   p.cycle.reconnect_below = p.ask_below = 0.5;
   p.resize = false;
   return p;
+}
+
+/// Of a mesh that is good already, but for the few places where it is not: what better tets gain
+/// from swaps and moves takes more time than all before.
+void leave_good(Phase& adapt, Phase& finish) {
+  adapt.rounds = 1;
+  adapt.cycle.sweeps = 3;
+  adapt.cycle.swap_ceiling = 0.7;
+  adapt.cycle.move_ceiling = 0.75;
+  finish.cycle.swap_ceiling = finish.cycle.move_ceiling = 0.5;
 }
 
 }  // namespace
@@ -151,14 +161,16 @@ std::vector<Phase> holding_good(std::vector<Phase> phases) {
 std::vector<Phase> recipe(const ResolvedOptions& o, Seeds seeds) {
   if (seeds == Seeds::kAbsent) return {rough(o), fine(o), polish(o)};
   Phase first = fine(o);
-  if (seeds >= Seeds::kMost) first.cycle.first_slack = kEvenedOut;
-  if (seeds == Seeds::kNearlyAll) {
+  if (seeds >= Seeds::kMost) first.cycle.first_slack = kEven;
+  if (seeds >= Seeds::kNearlyAll) {
     // Lattices need no shaking, and little of the whole is left for a third round.
     first.cycle.shake_below = 0;
     first.rounds = 2;
   }
   first.ask = 0;  // all are asked, but those that are trusted
-  return {first, polish(o)};
+  Phase last = polish(o);
+  if (seeds == Seeds::kEven) leave_good(first, last);
+  return {first, last};
 }
 
 Phase last_phase(const ResolvedOptions& o) { return polish(o); }

@@ -27,8 +27,9 @@ struct Phase {
   int budget_rounds = 0;
 };
 
-/// How many of a mesh's vertices are seeds; kAbsent where it was not filled with them at all.
-enum class Seeds { kAbsent, kSome, kMost, kNearlyAll };
+/// How many of a mesh's vertices are seeds; kAbsent where it was not filled with them at all,
+/// kEven where nearly all are and it is about as good as needed already.
+enum class Seeds { kAbsent, kSome, kMost, kNearlyAll, kEven };
 
 /// The phases of section 4.3: rough sampling of the surface, rough and fine adaptation to the
 /// sizes, and a last polish of quality. Nothing is rough in a mesh that is thinned and filled with

@@ -40,7 +40,6 @@ bool is_good(const TetMesh& m, TetId t) { return m.qualities[t] >= kGoodTet && c
 }  // namespace
 
 void tag_replaceable(TetMesh& mesh) {
-  constexpr Tag kOfParts = tag::kWasInterface | tag::kMetInterface;
   std::vector<std::int32_t> balance(mesh.points.size(), 0);  // good tets less others
   parallel_for(mesh.tets.size(), [&](std::size_t t) {
     const std::int32_t one = is_good(mesh, TetId(t)) ? 1 : -1;
@@ -48,7 +47,7 @@ void tag_replaceable(TetMesh& mesh) {
   });
   parallel_for(mesh.points.size(), [&](std::size_t v) {
     Tag& tags = mesh.vertex_tags[v];
-    if (!(tags & ~kOfParts) && balance[v] < 0) tags |= tag::kReplaceable;
+    if (tag::is_unbound(tags) && balance[v] < 0) tags |= tag::kReplaceable;
   });
 }
 

@@ -54,8 +54,7 @@ class Contraction {
 
   /// Inside the volume and not required: what has no tag but those of parts.
   bool may_go(VertexId v) const {
-    constexpr Tag kOfParts = tag::kWasInterface | tag::kMetInterface;
-    return mesh_.vertex_alive(v) && (mesh_.vertex_tags[v] & ~kOfParts) == 0;
+    return mesh_.vertex_alive(v) && tag::is_unbound(mesh_.vertex_tags[v]);
   }
 
   /// By vertex, the other ends of its short edges, some of them more than once.

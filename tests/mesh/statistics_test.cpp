@@ -87,6 +87,18 @@ TEST(QualityStatistics, FindTheWorstTetAndSkipHoles) {
   EXPECT_EQ(quality_statistics(mesh).worst_tet, kNone);
 }
 
+TEST(MeanQuality, IsThatOfTheLivingTets) {
+  TetMesh mesh = build(test::kuhn_cube(3)).mesh;
+  mesh.qualities[5] = 0.25f;
+  double sum = 0;
+  for (const float q : mesh.qualities) sum += q;
+  const double tets = double(mesh.tets.size());
+  EXPECT_NEAR(mean_quality(mesh), sum / tets, 1e-12);
+  mesh.tets[5] = {kNone, kNone, kNone, kNone};
+  EXPECT_NEAR(mean_quality(mesh), (sum - 0.25) / (tets - 1), 1e-12);
+  EXPECT_EQ(mean_quality({}), 0);
+}
+
 TEST(QualityStatistics, NameEveryFlatTet) {
   const MeshData data = test::cube_with_flat_tets(5, true);
   const TetMesh mesh = build(data).mesh;

@@ -16,7 +16,8 @@ double offers_below(const Phase& p) {
 
 // A tet that was asked is not asked again until something changes around it.
 TEST(Recipe, WhatAPhaseOffersFirstItAsksAgain) {
-  for (const Seeds seeds : {Seeds::kAbsent, Seeds::kSome, Seeds::kMost, Seeds::kNearlyAll}) {
+  for (const Seeds seeds :
+       {Seeds::kAbsent, Seeds::kSome, Seeds::kMost, Seeds::kNearlyAll, Seeds::kEven}) {
     const std::vector<Phase> phases = recipe({}, seeds);
     const Phase& last = phases.back();
     EXPECT_GE(last.ask_below, offers_below(last));
