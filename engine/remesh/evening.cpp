@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cavea/base/buckets.h"
+#include "cavea/base/cancel.h"
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/predicates.h"
 #include "cavea/geometry/quality.h"
@@ -25,8 +26,9 @@ constexpr int kHalvings = 3;
 
 class Evening {
  public:
-  explicit Evening(TetMesh& mesh)
+  Evening(TetMesh& mesh, const std::atomic<bool>* cancel)
       : mesh_(mesh),
+        cancel_(cancel),
         ends_(mesh.tets.size(), mesh.points.size(),
               [&](std::size_t t, auto&& put) {
                 EdgeShare(mesh, TetId(t)).for_each([&](const auto& e) {
@@ -46,6 +48,7 @@ class Evening {
   void run() {
     std::vector<Vec3> next = points_;
     for (int step = 0; step < kSteps; ++step) {
+      throw_if_cancelled(cancel_);
       parallel_for(next.size(), [&](std::size_t v) {
         if (tag::is_unbound(mesh_.vertex_tags[v])) next[v] = points_[v] + kStride * pull(v);
       });
@@ -74,6 +77,7 @@ class Evening {
     std::vector<char> moved(points_.size());
     parallel_for(moved.size(), [&](std::size_t v) { moved[v] = points_[v] != mesh_.points[v]; });
     for (int round = 0;; ++round) {
+      throw_if_cancelled(cancel_);
       const std::vector<char> back = of_bad_tets(moved);
       parallel_for(moved.size(), [&](std::size_t v) {
         moved[v] = back[v] && points_[v] != mesh_.points[v];
@@ -105,6 +109,7 @@ class Evening {
   }
 
   TetMesh& mesh_;
+  const std::atomic<bool>* cancel_;
   Buckets ends_;                        ///< by vertex, the other ends of its edges
   std::vector<std::uint32_t> degrees_;  ///< how many of these there are, each once and first
   std::vector<Vec3> points_;            ///< where the vertices are by now
@@ -113,6 +118,6 @@ class Evening {
 
 }  // namespace
 
-void even_out(TetMesh& mesh) { Evening(mesh).run(); }
+void even_out(TetMesh& mesh, const std::atomic<bool>* cancel) { Evening(mesh, cancel).run(); }
 
 }  // namespace cavea

@@ -59,7 +59,7 @@ Seeded seed(Job& job) {
   Seeded result{double(seeds) / double(mesh.points.size())};
   if (job.sizes.vary() && seeds > 0) {
     if (result.share >= kNearlyAll && !job.r.uniform() && !job.r.freeze.move) {
-      even_out(mesh);
+      even_out(mesh, job.options.cancel);
       result.is_even = mean_quality(mesh) >= kEven;
     }
     job.resize();

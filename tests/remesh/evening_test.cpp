@@ -2,10 +2,12 @@
 #include "cavea/remesh/evening.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "cavea/base/cancel.h"
 #include "cavea/base/parallel.h"
 #include "cavea/mesh/statistics.h"
 #include "cavea/remesh/seeding.h"
@@ -44,7 +46,7 @@ std::vector<std::size_t> bound_vertices(const TetMesh& mesh) {
 TEST(Evening, MakesMoreLengthsConformAndLeavesTetsSound) {
   TetMesh mesh = seeded(graded);
   const TetMesh before = mesh;
-  even_out(mesh);
+  even_out(mesh, nullptr);
   expect_sound(mesh);
   EXPECT_GT(length_statistics(mesh).conforming_percent(),
             length_statistics(before).conforming_percent() + 1);
@@ -63,7 +65,7 @@ TEST(Evening, LeavesWhatIsBoundWhereItIs) {
   for (Tag& tags : mesh.vertex_tags)
     if (random.below(10) == 0) tags |= tag::kRequired;
   const TetMesh before = mesh;
-  even_out(mesh);
+  even_out(mesh, nullptr);
   EXPECT_NE(mesh.points, before.points);
   for (const std::size_t v : bound_vertices(mesh)) EXPECT_EQ(mesh.points[v], before.points[v]);
 }
@@ -72,7 +74,7 @@ TEST(Evening, LeavesALatticeAsItIs) {
   constexpr double kSize = 0.05;
   TetMesh mesh = seeded([](const Vec3&) { return kSize; }, 1);
   const TetMesh before = mesh;
-  even_out(mesh);
+  even_out(mesh, nullptr);
   // A step spreads what is uneven by an edge.
   constexpr double kFar = 6 * kSize;
   int far = 0;
@@ -90,12 +92,20 @@ TEST(Evening, DoesNotDependOnTheNumberOfThreads) {
   TetMesh one;
   for (const int threads : {1, 2, 3, 8}) {
     TetMesh mesh = start;
-    run_in_arena(threads, [&] { even_out(mesh); });
+    run_in_arena(threads, [&] { even_out(mesh, nullptr); });
     if (threads == 1)
       one = std::move(mesh);
     else
       expect_same(one, mesh);
   }
+}
+
+TEST(Evening, CanBeCancelled) {
+  const std::atomic<bool> cancel{true};
+  TetMesh mesh = seeded(graded);
+  const TetMesh before = mesh;
+  EXPECT_THROW(even_out(mesh, &cancel), Cancelled);
+  expect_same(mesh, before);
 }
 
 TEST(Evening, OfAResultLeavesItAsGoodAsOthers) {
