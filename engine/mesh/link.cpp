@@ -286,7 +286,7 @@ void link_faces(TetMesh& mesh) {
 
 namespace {
 
-/// The codes of the faces of a choice, which are few of all: each is asked once.
+/// The codes of the faces of a choice, ascending. Mostly they are few of all, which are asked once.
 std::vector<std::uint32_t> chosen_faces(const TetMesh& mesh, FaceChoice choice) {
   // Most meshes have one reference: then nobody need look up that of each neighbour.
   const bool one_reference =

@@ -23,7 +23,7 @@ constexpr double kOfNeedles = 0.2;
 /// Where that has failed it is below 0.45.
 constexpr double kGoodWithoutSeeds = 0.5;
 
-/// Of all vertices.
+/// Shares of all vertices that are seeds.
 constexpr double kFew = 0.05, kMost = 0.5, kNearlyAll = 0.8;
 
 /// Mean quality of seeds that were evened out where they are left at that, but for the worst: 0.82

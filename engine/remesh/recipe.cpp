@@ -19,7 +19,7 @@ constexpr double kFittedEdge = 1.5;
 constexpr double kRoughLong = 2.0, kRoughShort = 0.4;
 
 /// Lengths between seeds are no farther off than this where it is for swaps and relocation to mend.
-constexpr double kEven = 1.25;
+constexpr double kEvenedOut = 1.25;
 
 /// Each level makes twice the tets, of which few are at the interface: parts pay early.
 constexpr std::int64_t kOneSurfacePart = 2000;
@@ -161,7 +161,7 @@ std::vector<Phase> holding_good(std::vector<Phase> phases) {
 std::vector<Phase> recipe(const ResolvedOptions& o, Seeds seeds) {
   if (seeds == Seeds::kAbsent) return {rough(o), fine(o), polish(o)};
   Phase first = fine(o);
-  if (seeds >= Seeds::kMost) first.cycle.first_slack = kEven;
+  if (seeds >= Seeds::kMost) first.cycle.first_slack = kEvenedOut;
   if (seeds >= Seeds::kNearlyAll) {
     // Lattices need no shaking, and little of the whole is left for a third round.
     first.cycle.shake_below = 0;
