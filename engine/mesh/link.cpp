@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cavea/base/atomic.h"
+#include "cavea/base/collect.h"
 #include "cavea/base/error.h"
 #include "cavea/base/prefetch.h"
 #include "cavea/base/scatter.h"
@@ -295,20 +296,11 @@ std::vector<std::uint32_t> chosen_faces(const TetMesh& mesh, FaceChoice choice) 
     if (choice == FaceChoice::kAll) return true;
     return one_reference ? mesh.links[t][f].is_unset() : is_surface_face(mesh, t, f);
   };
-  std::vector<std::vector<std::uint32_t>> of_blocks((mesh.tets.size() + kReduceBlock - 1) /
-                                                    kReduceBlock);
-  parallel_for(
-      of_blocks.size(),
-      [&](std::size_t b) {
-        const std::size_t end = std::min(mesh.tets.size(), (b + 1) * kReduceBlock);
-        for (std::size_t t = b * kReduceBlock; t < end; ++t)
-          for (int f = 0; mesh.tet_alive(TetId(t)) && f < 4; ++f)
-            if (is_chosen(TetId(t), f)) of_blocks[b].push_back(std::uint32_t(4 * t) + unsigned(f));
-      },
-      1);
-  std::vector<std::uint32_t> codes;
-  for (const auto& some : of_blocks) codes.insert(codes.end(), some.begin(), some.end());
-  return codes;
+  return collect_in_order<std::uint32_t>(mesh.tets.size(), [&](std::size_t t, auto& codes) {
+    if (!mesh.tet_alive(TetId(t))) return;
+    for (int f = 0; f < 4; ++f)
+      if (is_chosen(TetId(t), f)) codes.push_back(std::uint32_t(4 * t) + unsigned(f));
+  });
 }
 
 /// The faces of a choice by their smallest vertices.

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "cavea/base/cancel.h"
+#include "cavea/base/collect.h"
 #include "cavea/base/parallel.h"
 #include "cavea/cavity/mesh_editor.h"
 #include "cavea/mesh/grow.h"
@@ -68,16 +69,8 @@ class SeedLevel {
 
  private:
   void find_seeds() {
-    const std::size_t blocks = (mesh_.tets.size() + kReduceBlock - 1) / kReduceBlock;
-    std::vector<std::vector<Seed>> found(blocks);
-    parallel_for(
-        blocks,
-        [&](std::size_t b) {
-          const std::size_t end = std::min(mesh_.tets.size(), (b + 1) * kReduceBlock);
-          for (std::size_t t = b * kReduceBlock; t < end; ++t) find_seeds_in(TetId(t), found[b]);
-        },
-        1);
-    for (const auto& f : found) seeds_.insert(seeds_.end(), f.begin(), f.end());
+    seeds_ = collect_in_order<Seed>(
+        mesh_.tets.size(), [&](std::size_t t, auto& found) { find_seeds_in(TetId(t), found); });
   }
 
   void find_seeds_in(TetId t, std::vector<Seed>& out) const {
