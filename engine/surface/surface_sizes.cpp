@@ -244,10 +244,11 @@ double SurfaceModel::curved_size(const Anchor& anchor) const {
     const CurveEdge& c = curves_[curve_of(anchor.facet)];
     return (1 - anchor.u) * sizes_[c.v[0]] + anchor.u * sizes_[c.v[1]];
   }
-  if (const std::int32_t corner = corner_vertex(anchor); corner != kNone) return sizes_[corner];
   const auto& at_corner = corner_sizes_[anchor.facet];
-  const double h = (1 - double(anchor.u) - anchor.v) * at_corner[0] + anchor.u * at_corner[1] +
-                   anchor.v * at_corner[2];
+  const std::int32_t corner = corner_vertex(anchor);
+  const double h = corner != kNone ? sizes_[corner]
+                                   : (1 - double(anchor.u) - anchor.v) * at_corner[0] +
+                                         anchor.u * at_corner[1] + anchor.v * at_corner[2];
   return size_near_creases(anchor.facet, at(anchor), h);
 }
 
