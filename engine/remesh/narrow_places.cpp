@@ -76,7 +76,7 @@ class Refinement {
   std::vector<SizeSphere> hopeful_spots(const std::vector<TetId>& bad) const {
     const TetMesh& mesh = job_.mesh;
     if (bad.size() > kMost || double(bad.size()) > kFew * double(mesh.tets.size())) return {};
-    const double finest = finest_size(job_.r);
+    const double finest = job_.r.finest;
     std::vector<SizeSphere> spots;
     for (const TetId t : bad) {
       SizeSphere spot = spot_over(mesh, centroid(mesh.corners(t)), mesh.tets[t]);
@@ -111,7 +111,7 @@ class Refinement {
   void lower_and_mend(const std::vector<SizeSphere>& spots, const std::vector<TetId>& bad) {
     TetMesh& mesh = job_.mesh;
     const std::vector<float> sizes_before =
-        job_.sizes.lower(mesh, job_.surface.model(), spots, finest_size(job_.r), aim_.growth);
+        job_.sizes.lower(mesh, job_.surface.model(), spots, job_.r.finest, aim_.growth);
     ask_nothing(mesh);
     ask_changed_lengths(mesh, sizes_before);
     for (const TetId t : bad) mesh.tet_flags[t] |= tet_flag::kAskAll;

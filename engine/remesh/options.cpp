@@ -137,8 +137,10 @@ ResolvedOptions resolve(const Options& o, double box_diagonal, const SizeRange& 
   r.hgrad = o.hgrad.value_or(std::numeric_limits<double>::infinity());
   r.hgradreq = o.hgradreq;
   r.freeze = o.freeze;
+  constexpr double kFinest = 0.125;
   if (o.hsiz) {
     r.hmin = r.hmax = r.smallest = r.largest = *o.hsiz;
+    r.finest = kFinest * r.smallest;
     return r;
   }
   // No edge is longer than the diagonal, whatever a field says where it means "any".
@@ -148,6 +150,7 @@ ResolvedOptions resolve(const Options& o, double box_diagonal, const SizeRange& 
   for (const SizeRegion& region : o.size_regions) smallest = std::min(smallest, size_of(region));
   r.hmin = o.hmin.value_or(std::min(smallest, r.hmax));
   resolve_local(o, r);
+  r.finest = o.hmin && !r.uniform() ? r.smallest : kFinest * r.smallest;
   return r;
 }
 

@@ -15,15 +15,18 @@
 namespace cavea {
 namespace {
 
-/// Places that are still too far from the surface after this many repairs are left and reported.
+/// Repairs move the surface beside, too. After so many, what is within the tolerance is left, if
+/// not with the margin for what lies between samples.
 constexpr int kRepairs = 10;
+/// After so many, what is beyond is left and reported.
+constexpr int kMostRepairs = 20;
 
 /// Around the far sample's triangle. The distance goes with the square of the size; a little more
 /// for good measure.
 SizeSphere spot_around(const FarSample& f, const TetMesh& mesh, const ResolvedOptions& r) {
   SizeSphere spot = spot_over(mesh, f.where, mesh.triangles[std::size_t(f.triangle)].v);
   const double factor = std::max(0.5, 0.75 * std::sqrt(kMeasuredShare * f.hausd / f.distance));
-  spot.size = std::max(spot.size * factor, finest_size(r));
+  spot.size = std::max(spot.size * factor, r.finest);
   return spot;
 }
 
@@ -40,7 +43,7 @@ void repair(Job& job, const SurfaceDistance& distance) {
   job.input.keep(job.mesh);
   const std::vector<float> sizes_before =
       job.sizes.lower(job.mesh, job.surface.model(), spots_of(distance, job.mesh, job.r),
-                      finest_size(job.r), steepest_growth(job.r));
+                      job.r.finest, steepest_growth(job.r));
   ask_nothing(job.mesh);
   ask_changed_lengths(job.mesh, sizes_before);
   run_phases(job, mending_recipe(job.r));
@@ -57,8 +60,9 @@ bool may_repair(const Job& job, const SurfaceDistance& distance) {
 }
 
 /// What stands is only to keep the tolerance: no sample of it is between those measured.
-bool is_far(const Job& job, const SurfaceDistance& distance) {
-  return distance.worse().worst > (job.keeping.stands ? 1 : kMeasuredShare);
+bool is_far(const Job& job, const SurfaceDistance& distance, int repairs) {
+  const bool exactly = job.keeping.stands || repairs >= kRepairs;
+  return distance.worse().worst > (exactly ? 1 : kMeasuredShare);
 }
 
 /// The caller's last touch.
@@ -88,11 +92,6 @@ SizeSphere spot_over(const TetMesh& mesh, const Vec3& center, std::span<const Ve
   return spot;
 }
 
-double finest_size(const ResolvedOptions& r) {
-  constexpr double kFinest = 0.125;
-  return r.uniform() ? kFinest * r.smallest : r.smallest;
-}
-
 double steepest_growth(const ResolvedOptions& r) {
   constexpr double kBackToUniform = 1.8;
   return r.uniform() ? std::max(r.hgrad, kBackToUniform) : r.hgrad;
@@ -102,7 +101,8 @@ SurfaceDistance measure_and_repair(Job& job) {
   SurfaceDistance distance = finish_and_measure(job);
   int repairs = 0;
   const auto repair_all = [&] {
-    for (; repairs < kRepairs && may_repair(job, distance) && is_far(job, distance); ++repairs) {
+    for (; repairs < kMostRepairs && may_repair(job, distance) && is_far(job, distance, repairs);
+         ++repairs) {
       job.steps.timed("repair", [&] { repair(job, distance); });
       distance = finish_and_measure(job);
     }

@@ -10,10 +10,6 @@ namespace cavea {
 /// A sphere around vertices that has the smallest of their sizes.
 SizeSphere spot_over(const TetMesh& mesh, const Vec3& center, std::span<const VertexId> vertices);
 
-/// The smallest size of repairs. The least of all bounds is a wish, but what bounds a uniform size
-/// from below would forbid them.
-double finest_size(const ResolvedOptions& r);
-
 /// How fast sizes rise from where they are lowered, as hgrad. Those that are wanted to be uniform
 /// are so again after two or three edges: by 1.3 an edge a spot of an eighth has a thousand tets
 /// around it whose lengths do not conform.

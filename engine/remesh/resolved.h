@@ -9,6 +9,9 @@ struct ResolvedOptions {
   double hausd = 0, max_bulge = 0, hmin = 0, hmax = 0;
   /// The smallest and largest of all bounds, local ones too.
   double smallest = 0, largest = 0;
+  /// What repairs may go down to where nothing else helps: the smallest, or less where that is not
+  /// the caller's bound but a default, or a uniform size, which would forbid them.
+  double finest = 0;
   std::vector<LocalParameters> local;
   std::vector<std::pair<std::int32_t, double>> hausd_of_triangles;  ///< by reference
   double hgrad = 1;                                                 ///< infinity for no bound

@@ -47,6 +47,28 @@ TEST(NarrowPlaces, UniformSizesGiveWayWhereRidgesAreNear) {
   EXPECT_GE(smallest, 0.124 * kSize);
 }
 
+/// The default hmin is nobody's bound; a given one is kept.
+TEST(NarrowPlaces, OfDefaultSizesGiveWayBelowHmin) {
+  constexpr double kThickness = 0.06, kLargest = 0.015;  // so that few tets are at the step
+  const double hmin = 0.001 * std::sqrt(1.25 + kThickness * kThickness);
+  const MeshData body = mapped(step(0.2 * hmin), [](const Vec3& p) {
+    return Vec3{p.x, p.y, kThickness * p.z};
+  });
+  Options options;
+  options.hausd = 0.02 * hmin;
+  options.hmax = kLargest;
+  TetMesh mesh = built(body);
+  const Report report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  EXPECT_TRUE(was_refined(report));
+  EXPECT_GE(report.after.quality.worst, 0.3);
+  EXPECT_LT(*std::ranges::min_element(mesh.sizes), 0.9 * hmin);
+  options.hmin = hmin;
+  TetMesh bounded = built(body);
+  remesh(bounded, {}, options);
+  EXPECT_GE(*std::ranges::min_element(bounded.sizes), 0.99 * hmin);
+}
+
 TEST(NarrowPlaces, OfAResultStayAsTheyAre) {
   TetMesh mesh = built(low_step());
   remesh(mesh, {}, options_of_size());
