@@ -33,8 +33,9 @@ constexpr double kTooLong = 2.6, kTooShort = 0.3;
 /// More poor tets than this share are not exceptions.
 constexpr double kFew = 0.01;
 
-/// Results may have so many by chance: seen are 1 of 29 thousand and 3 of 17 thousand.
-constexpr double kHardlyAny = 0.0005;
+/// Results may have so many by chance, and lengths that are beyond by so much: seen are 3 of 17
+/// thousand, 246 of 449 thousand and a length of 0.22.
+constexpr double kHardlyAny = 0.001, kHardlyBeyond = 1.5;
 
 bool is_poor(const TetMesh& m, TetId t) {
   if (m.qualities[t] < kPoorQuality) return true;
@@ -115,7 +116,7 @@ bool may_have_made_room(const MeshSummary& now, const LengthStatistics& in_curve
 std::vector<float> own_sizes_within(const TetMesh& mesh, double largest) {
   // Of the wanted sizes: what is finer yet is no chance. What is coarser is so where the surface of
   // the mesh bends, which stays as it is.
-  constexpr float kFinest = float(kTooShort);
+  constexpr float kFinest = float(0.5 * kTooShort);
   constexpr double kCoarsest = 1.25;  // of the largest size
   std::vector<float> sizes = mean_edge_lengths(mesh);
   parallel_for(sizes.size(), [&](std::size_t v) {
@@ -143,7 +144,9 @@ bool none_is_poor(const MeshSummary& now) {
 }
 
 bool poor_by_chance(const MeshSummary& now, std::int64_t poor) {
-  return now.quality.worst >= kSoundQuality && no_length_is_poor(now.lengths) &&
+  const LengthStatistics& lengths = now.lengths;
+  return now.quality.worst >= kSoundQuality && lengths.shortest >= kTooShort / kHardlyBeyond &&
+         lengths.longest <= kHardlyBeyond * kTooLong &&
          double(poor) <= kHardlyAny * double(now.counts.tets);
 }
 
