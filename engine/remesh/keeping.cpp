@@ -69,9 +69,9 @@ class Judge {
   bool is_near() {
     constexpr double kLeastFiner = 0.8;  // what is finer yet asks for the next scale
     if (!has_the_quality_of_results(before_.quality, false)) return false;
-    const LengthStatistics in_curved = lengths_in_curved_sizes();
-    keeping_.made_room = may_have_made_room(before_, in_curved, job_.options);
-    return job_.sizes.finer() >= kLeastFiner && is_nearly_result(before_, in_curved, job_.options);
+    const InCurvedSizes curved{lengths_in_curved_sizes(), job_.surface.bulge() / job_.r.hausd};
+    keeping_.made_room = may_have_made_room(before_, curved, job_.options);
+    return job_.sizes.finer() >= kLeastFiner && is_nearly_result(before_, curved, job_.options);
   }
 
   LengthStatistics lengths_in_curved_sizes() {

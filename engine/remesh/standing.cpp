@@ -55,12 +55,16 @@ double share_of_poor(const QualityStatistics& q) {
 
 /// Whether the quality is that of results, the mean length at least `finest`, and few edges are too
 /// long.
-bool is_between(const MeshSummary& now, const LengthStatistics& in_curved, const Options& options,
+bool is_between(const MeshSummary& now, const InCurvedSizes& curved, const Options& options,
                 double finest) {
-  // Smaller facets bend in narrower strips, to which smaller sizes belong where they are the truth.
-  constexpr double kCoarsestFaceted = 1.4;
-  const bool coarse = options.faceted ? in_curved.mean > kCoarsestFaceted
-                                      : in_curved.too_long_percent() > 100 - options.min_conform;
+  // Facets that fit their surface may be long beside sizes that follow from how they bend: smaller
+  // ones bend in narrower strips.
+  constexpr double kCoarsest = 1.4;
+  // In hausd. That of triangles of the wanted size is 0.75; edges may be 1.4 times as long.
+  constexpr double kFittingBulge = 1.25;
+  const bool fits = options.faceted || curved.bulge <= kFittingBulge;
+  const bool coarse = fits ? curved.lengths.mean > kCoarsest
+                           : curved.lengths.too_long_percent() > 100 - options.min_conform;
   return has_the_quality_of_results(now.quality, false) && now.lengths.mean >= finest && !coarse;
 }
 
@@ -101,16 +105,15 @@ bool sizes_are_given(const Options& options, bool has_field) {
          !options.size_regions.empty() || options.freeze.any_operator() || options.freeze.surface;
 }
 
-bool is_nearly_result(const MeshSummary& now, const LengthStatistics& in_curved,
-                      const Options& options) {
+bool is_nearly_result(const MeshSummary& now, const InCurvedSizes& curved, const Options& options) {
   // The surface of a result asks for sizes that are smaller by up to a fifth: as seen on 70 models.
   constexpr double kFinest = 0.82;
-  return is_between(now, in_curved, options, kFinest);
+  return is_between(now, curved, options, kFinest);
 }
 
-bool may_have_made_room(const MeshSummary& now, const LengthStatistics& in_curved,
+bool may_have_made_room(const MeshSummary& now, const InCurvedSizes& curved,
                         const Options& options) {
-  return is_between(now, in_curved, options, 0.9 * kFinestRoom);
+  return is_between(now, curved, options, 0.9 * kFinestRoom);
 }
 
 std::vector<float> own_sizes_within(const TetMesh& mesh, double largest) {

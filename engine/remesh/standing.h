@@ -32,16 +32,20 @@ bool gained_nothing(const MeshSummary& before, const MeshSummary& after, const O
 /// Whether the caller says what the sizes are, and not the surface alone.
 bool sizes_are_given(const Options& options, bool has_field);
 
+/// How a mesh lies in sizes that follow from the curvature alone: thin walls ask for less so that
+/// good tets fit, and where all are good they do.
+struct InCurvedSizes {
+  LengthStatistics lengths;
+  double bulge = 0;  ///< of the smooth model from the facets, in hausd
+};
+
 /// Whether the mesh may be a result whose surface asks for other sizes: of the quality of results
 /// where sizes vary, and neither too fine nor too coarse as a whole.
-/// \param in_curved the lengths in sizes that follow from the curvature alone: thin walls ask for
-/// less so that good tets fit, and where all are good they do
-bool is_nearly_result(const MeshSummary& now, const LengthStatistics& in_curved,
-                      const Options& options);
+bool is_nearly_result(const MeshSummary& now, const InCurvedSizes& curved, const Options& options);
 
 /// The same for a mesh for which a run has made its sizes finer, since the body has no room for
 /// those wanted.
-bool may_have_made_room(const MeshSummary& now, const LengthStatistics& in_curved,
+bool may_have_made_room(const MeshSummary& now, const InCurvedSizes& curved,
                         const Options& options);
 
 /// The sizes that a mesh has: at least 0.3 of those wanted, and at most 1.25 of `largest`.
