@@ -48,7 +48,7 @@ bool is_nearly_result(const MeshSummary& now, const InCurvedSizes& curved, const
 bool may_have_made_room(const MeshSummary& now, const InCurvedSizes& curved,
                         const Options& options);
 
-/// The sizes that a mesh has: at least 0.3 of those wanted, and at most 1.25 of `largest`.
+/// The sizes that a mesh has: at least 0.15 of those wanted, and at most 1.25 of `largest`.
 std::vector<float> own_sizes_within(const TetMesh& mesh, double largest);
 
 /// The same only where edges are clearly shorter than wanted: all others stay as they are.
