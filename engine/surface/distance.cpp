@@ -347,6 +347,7 @@ struct DistanceMeter::Memory {
       out = std::move(now);
       return;
     }
+    if (now.ids == out.ids && now.corners == out.corners) return;
     const Changes changes(out.corners, now.corners);
     std::vector<Sampled> kept(now.corners.size());
     parallel_for(kept.size(), [&](std::size_t t) {

@@ -207,8 +207,26 @@ void tag_edges(TetMesh& m, const std::vector<EdgeSide>& sides, const FeatureOpti
                   options.may_be_ridge);
 }
 
-std::vector<FeatureStar> gather_stars(const TetMesh& m, const std::vector<EdgeSide>& sides) {
-  std::vector<FeatureStar> stars(m.points.size());
+/// The vertices of the surface, numbered: they are few of all.
+struct SurfaceVertices {
+  explicit SurfaceVertices(const TetMesh& m) : number(m.points.size(), kNone) {
+    for (const Triangle& t : m.triangles) {
+      if (!t.alive()) continue;
+      for (const VertexId v : t.v) {
+        if (number[v] != kNone) continue;
+        number[v] = std::int32_t(vertices.size());
+        vertices.push_back(v);
+      }
+    }
+  }
+  std::vector<VertexId> vertices;
+  std::vector<std::int32_t> number;  ///< of each vertex of the mesh; none off the surface
+};
+
+std::vector<FeatureStar> gather_stars(const TetMesh& m, const std::vector<EdgeSide>& sides,
+                                      const SurfaceVertices& surface) {
+  std::vector<FeatureStar> stars(surface.vertices.size());
+  const auto star = [&](VertexId v) -> FeatureStar& { return stars[surface.number[v]]; };
   Components corners(3 * m.triangles.size());  // (triangle, local vertex) pairs joined across edges
   auto corner = [&](const EdgeSide& s, VertexId v) {
     const auto& t = m.triangles[s.triangle].v;
@@ -218,8 +236,8 @@ std::vector<FeatureStar> gather_stars(const TetMesh& m, const std::vector<EdgeSi
     const Tag kind =
         m.triangles[begin->triangle].edge_tag[begin->k] & Tag(tag::kFeature | tag::kPinched);
     if (kind) {
-      stars[begin->a].add(begin->b, kind);
-      stars[begin->b].add(begin->a, kind);
+      star(begin->a).add(begin->b, kind);
+      star(begin->b).add(begin->a, kind);
     }
     for (const EdgeSide* s = begin + 1; s < end; ++s)
       for (VertexId v : {s->a, s->b}) corners.join(corner(*begin, v), corner(*s, v));
@@ -228,7 +246,7 @@ std::vector<FeatureStar> gather_stars(const TetMesh& m, const std::vector<EdgeSi
     if (m.triangles[t].alive())
       for (int k = 0; k < 3; ++k)
         if (corners.find(std::int32_t(3 * t + k)) == std::int32_t(3 * t + k))
-          ++stars[m.triangles[t].v[k]].fans;
+          ++star(m.triangles[t].v[k]).fans;
   return stars;
 }
 
@@ -249,8 +267,8 @@ bool is_corner(const TetMesh& m, VertexId v, const FeatureStar& star, const Shar
 /// the apex of a cone. Nothing would hold a vertex there, so that tips were cut off.
 class Tips {
  public:
-  Tips(const TetMesh& m, double least_height)
-      : m_(m), least_height_(least_height), fans_(m.points.size()) {
+  Tips(const TetMesh& m, double least_height, const SurfaceVertices& surface)
+      : m_(m), surface_(surface), least_height_(least_height), fans_(surface.vertices.size()) {
     for (const Triangle& t : m.triangles)
       if (t.alive())
         for (int k = 0; k < 3; ++k) add(t.v[k], t.v[(k + 1) % 3], t.v[(k + 2) % 3]);
@@ -260,8 +278,8 @@ class Tips {
     // What a cone of half a right angle leaves is 254 degrees; the corner of an octahedron, which
     // may stand for a sphere, has 240, but its edges are ridges.
     constexpr double kMostAngle = 235 * std::numbers::pi / 180;
-    const Fan& fan = fans_[v];
-    return fan.triangles > 0 && fan.angle < kMostAngle &&
+    const Fan& fan = fans_[surface_.number[v]];
+    return fan.angle < kMostAngle &&
            distance(m_.points[v], fan.ring / (2 * fan.triangles)) > least_height_;
   }
 
@@ -274,29 +292,30 @@ class Tips {
 
   void add(VertexId v, VertexId a, VertexId b) {
     const Vec3 x = m_.points[a] - m_.points[v], y = m_.points[b] - m_.points[v];
-    Fan& fan = fans_[v];
+    Fan& fan = fans_[surface_.number[v]];
     fan.angle += angle_between(x, y);
     fan.ring = fan.ring + m_.points[a] + m_.points[b];
     ++fan.triangles;
   }
 
   const TetMesh& m_;
+  const SurfaceVertices& surface_;
   double least_height_;
   std::vector<Fan> fans_;
 };
 
-void tag_vertices(TetMesh& m, const std::vector<FeatureStar>& stars, const Tips& tips,
-                  const FeatureOptions& options) {
+void tag_vertices(TetMesh& m, const SurfaceVertices& surface, const std::vector<FeatureStar>& stars,
+                  const Tips& tips, const FeatureOptions& options) {
   const Sharpness sharpness(options);
-  for (std::size_t v = 0; v < stars.size(); ++v) {
-    const FeatureStar& star = stars[v];
-    if (star.fans == 0) continue;
+  for (std::size_t i = 0; i < stars.size(); ++i) {
+    const VertexId v = surface.vertices[i];
+    const FeatureStar& star = stars[i];
     // What the mesh carries of its edges' kinds may hold no longer.
     m.vertex_tags[v] &= Tag(~(tag::kOnCurve | tag::kPinched));
     m.vertex_tags[v] |= Tag(tag::kSurface | (star.all_kinds & (tag::kOnCurve | tag::kPinched)));
     if (star.fans > 1) m.vertex_tags[v] |= tag::kPinched;
-    const bool is_tip = star.degree == 0 && sharpness.detect && tips.has(VertexId(v));
-    if (is_tip || is_corner(m, VertexId(v), star, sharpness)) m.vertex_tags[v] |= tag::kCorner;
+    const bool is_tip = star.degree == 0 && sharpness.detect && tips.has(v);
+    if (is_tip || is_corner(m, v, star, sharpness)) m.vertex_tags[v] |= tag::kCorner;
   }
 }
 
@@ -323,16 +342,17 @@ int number_patches(TetMesh& m, const std::vector<EdgeSide>& sides) {
 int classify_features(TetMesh& mesh, const FeatureOptions& options) {
   const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles);
   tag_edges(mesh, sides, options);
+  const SurfaceVertices surface(mesh);
   // Work for one thread each.
   std::vector<FeatureStar> stars;
   std::optional<Tips> tips;
   int patches = 0;
-  run_together([&] { stars = gather_stars(mesh, sides); },
+  run_together([&] { stars = gather_stars(mesh, sides, surface); },
                [&] {
-                 tips.emplace(mesh, options.least_tip);
+                 tips.emplace(mesh, options.least_tip, surface);
                  patches = number_patches(mesh, sides);
                });
-  tag_vertices(mesh, stars, *tips, options);
+  tag_vertices(mesh, surface, stars, *tips, options);
   return patches;
 }
 
