@@ -80,13 +80,13 @@ TEST(NarrowPlaces, OfAResultStayAsTheyAre) {
 }
 
 TEST(NarrowPlaces, WhatIsInVainIsTakenBack) {
-  constexpr double kSize = 0.02;  // so that most tets are nowhere near the tip
+  constexpr double kFine = 0.02;  // so that most tets are nowhere near the tip
   TetMesh mesh = built(wedge(8));
-  const Report report = remesh(mesh, {}, uniform(kSize));
+  const Report report = remesh(mesh, {}, uniform(kFine));
   expect_sound(mesh);
   EXPECT_TRUE(was_refined(report));
   EXPECT_LT(report.after.quality.worst, 0.3);
-  EXPECT_GE(*std::ranges::min_element(mesh.sizes), 0.99 * kSize);
+  EXPECT_GE(*std::ranges::min_element(mesh.sizes), 0.99 * kFine);
 }
 
 TEST(NarrowPlaces, AreNotRefinedWhereFrozenOrSound) {
