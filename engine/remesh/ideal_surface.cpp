@@ -72,6 +72,7 @@ void IdealSurface::loosen(TetMesh& mesh, double scale) {
 void IdealSurface::trust_facets(TetMesh& mesh) {
   constexpr double kTrusted = 0.9;  // so that what lies between samples is within, too
   max_bulge_ = std::min(max_bulge_, kTrusted * r_.hausd);
+  // Where curves bulge within a facet beside them they are near, but their chords are not.
   if (bulge() <= max_bulge_ && distance_of(mesh).worse().worst <= 1) return;
   model_->limit_bulge(max_bulge_);
   known_sizes_.forget();

@@ -11,6 +11,7 @@
 #include "cavea/base/parallel.h"
 #include "cavea/surface/edges.h"
 #include "cavea/surface/ridge_ends.h"
+#include "cavea/surface/surface_vertices.h"
 
 namespace cavea {
 namespace {
@@ -206,22 +207,6 @@ void tag_edges(TetMesh& m, const std::vector<EdgeSide>& sides, const FeatureOpti
   continue_ridges(m, sides, fold, options.continued_above * std::numbers::pi / 180,
                   options.may_be_ridge);
 }
-
-/// The vertices of the surface, numbered: they are few of all.
-struct SurfaceVertices {
-  explicit SurfaceVertices(const TetMesh& m) : number(m.points.size(), kNone) {
-    for (const Triangle& t : m.triangles) {
-      if (!t.alive()) continue;
-      for (const VertexId v : t.v) {
-        if (number[v] != kNone) continue;
-        number[v] = std::int32_t(vertices.size());
-        vertices.push_back(v);
-      }
-    }
-  }
-  std::vector<VertexId> vertices;
-  std::vector<std::int32_t> number;  ///< of each vertex of the mesh; none off the surface
-};
 
 std::vector<FeatureStar> gather_stars(const TetMesh& m, const std::vector<EdgeSide>& sides,
                                       const SurfaceVertices& surface) {

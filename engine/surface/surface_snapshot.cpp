@@ -1,10 +1,12 @@
 // Construction of the SurfaceModel: facets, normals, tangents, control points, anchors.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cavea/base/parallel.h"
 #include "cavea/surface/edges.h"
 #include "cavea/surface/surface_model.h"
+#include "cavea/surface/surface_vertices.h"
 
 namespace cavea {
 namespace {
@@ -73,23 +75,19 @@ void SurfaceModel::limit_bulge(double max_bulge) {
 }
 
 void SurfaceModel::take_facets(TetMesh& mesh) {
-  snapshot_vertex_.assign(mesh.points.size(), kNone);
+  SurfaceVertices surface(mesh);
+  for (const VertexId v : surface.vertices) {
+    points_.push_back(mesh.points[v]);
+    vertex_corner_.push_back((mesh.vertex_tags[v] & tag::kCorner) != 0);
+  }
+  snapshot_vertex_ = std::move(surface.number);
   std::vector<std::int32_t> facet_of(mesh.triangles.size(), kNone);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
     if (!t.alive()) continue;
     facet_of[i] = std::int32_t(facets_.size());
-    std::array<std::int32_t, 3> f{};
-    for (int k = 0; k < 3; ++k) {
-      std::int32_t& id = snapshot_vertex_[t.v[k]];
-      if (id == kNone) {
-        id = std::int32_t(points_.size());
-        points_.push_back(mesh.points[t.v[k]]);
-        vertex_corner_.push_back((mesh.vertex_tags[t.v[k]] & tag::kCorner) != 0);
-      }
-      f[k] = id;
-    }
-    facets_.push_back(f);
+    const auto at = [&](int k) { return snapshot_vertex_[t.v[k]]; };
+    facets_.push_back({at(0), at(1), at(2)});
     facet_patch_.push_back(t.patch);
     facet_exterior_.push_back(t.sides[1].is_unset());
     facet_hausd_.push_back(hausd_of(t.ref));

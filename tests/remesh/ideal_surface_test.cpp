@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "cavea/geometry/predicates.h"
 #include "remesh/support.h"
 
 namespace cavea::test {
@@ -31,12 +30,8 @@ MeshData undercut_plate() {
     // Six tets of a hexahedron: the ways from one corner to the opposite one.
     const int a = 4 * i, b = 4 * ((i + 1) % kSectors);
     const std::array<std::int32_t, 8> corner{a, a + 1, b, b + 1, a + 2, a + 3, b + 2, b + 3};
-    for (const auto& way : {std::array{1, 2}, {1, 4}, {2, 1}, {2, 4}, {4, 1}, {4, 2}}) {
-      std::array tet{corner[0], corner[way[0]], corner[way[0] + way[1]], corner[7]};
-      const auto& x = data.vertices;
-      if (volume6(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]) < 0) std::swap(tet[0], tet[1]);
-      data.tets.push_back(tet);
-    }
+    for (const auto& way : {std::array{1, 2}, {1, 4}, {2, 1}, {2, 4}, {4, 1}, {4, 2}})
+      add_positive(data, {corner[0], corner[way[0]], corner[way[0] + way[1]], corner[7]});
   }
   data.tet_refs.assign(data.tets.size(), 1);
   return data;

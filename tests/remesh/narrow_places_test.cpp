@@ -28,10 +28,7 @@ Options options_of_size() {
   return options;
 }
 
-bool was_refined(const Report& report) {
-  return std::ranges::any_of(report.phases,
-                             [](const PhaseTime& p) { return p.phase == "refining"; });
-}
+bool was_refined(const Report& report) { return times_of("refining", report) > 0; }
 
 TEST(NarrowPlaces, UniformSizesGiveWayWhereRidgesAreNear) {
   TetMesh mesh = built(low_step());

@@ -62,11 +62,8 @@ TEST(Remesh, OfAThinPlateOfNeedlesGoesOnFromItsSurface) {
   for (Vec3& p : plate.vertices) p.z *= 0.03;
   TetMesh mesh = built(plate);
   const Report report = remesh(mesh, {}, uniform(0.045));
-  const auto ran = [&](std::string_view name) {
-    return std::ranges::count(report.phases, name, &PhaseTime::phase);
-  };
-  EXPECT_EQ(ran("surface"), 1);
-  EXPECT_EQ(ran("bulk") + ran("rough"), 0);
+  EXPECT_EQ(times_of("surface", report), 1);
+  EXPECT_EQ(times_of("bulk", report) + times_of("rough", report), 0);
   expect_sound(mesh);
   EXPECT_GE(report.after.quality.worst, 0.3);
   EXPECT_GE(report.after.quality.mean, 0.78);

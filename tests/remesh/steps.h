@@ -5,8 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "cavea/geometry/predicates.h"
-#include "cavea/mesh/mesh_data.h"
+#include "support/meshes.h"
 
 namespace cavea::test {
 
@@ -22,13 +21,9 @@ inline MeshData extruded(const std::vector<std::array<double, 2>>& polygon,
     // Diagonals rise from the smaller number to the larger, so that prisms fit each other.
     std::ranges::sort(t);
     const auto [a, b, c] = t;
-    for (std::array<std::int32_t, 4> tet :
-         {std::array{a, b, c, c + n}, std::array{a, b, b + n, c + n},
-          std::array{a, a + n, b + n, c + n}}) {
-      const auto& x = data.vertices;
-      if (volume6(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]) < 0) std::swap(tet[0], tet[1]);
-      data.tets.push_back(tet);
-    }
+    for (const auto& tet : {std::array{a, b, c, c + n}, std::array{a, b, b + n, c + n},
+                            std::array{a, a + n, b + n, c + n}})
+      add_positive(data, tet);
   }
   data.tet_refs.assign(data.tets.size(), 1);
   return data;

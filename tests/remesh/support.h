@@ -1,8 +1,10 @@
 #pragma once
 // Bodies to remesh, and what is asked of every result.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cavea/mesh/build.h"
@@ -83,6 +85,11 @@ inline Options uniform(double size, int threads = 0) {
   options.hsiz = size;
   options.threads = threads;
   return options;
+}
+
+/// How often a run had a phase of that name.
+inline std::ptrdiff_t times_of(std::string_view phase, const Report& report) {
+  return std::ranges::count(report.phases, phase, &PhaseTime::phase);
 }
 
 /// Of a run whose result is sound.

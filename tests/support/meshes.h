@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "cavea/geometry/predicates.h"
 #include "cavea/mesh/mesh_data.h"
 
 namespace cavea::test {
@@ -55,6 +56,13 @@ inline MeshData two_tets() {
   data.tets = {{0, 1, 2, 3}, {1, 2, 3, 4}};
   data.tet_refs = {1, 1};
   return data;
+}
+
+/// Adds a tet, turned so that its volume is positive.
+inline void add_positive(MeshData& data, std::array<std::int32_t, 4> tet) {
+  const auto& x = data.vertices;
+  if (volume6(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]) < 0) std::swap(tet[0], tet[1]);
+  data.tets.push_back(tet);
 }
 
 /// The cells of an n^3 grid of the unit cube for which keep(i, j, k) holds, six tets each around
