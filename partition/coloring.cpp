@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
-#include <span>
 
 #include "cavea/base/parallel.h"
 
@@ -21,13 +20,8 @@ std::uint32_t priority(std::int32_t v) {
   return h ^ h >> 16;
 }
 
-std::span<const std::int32_t> row(const Graph& graph, std::int32_t v) {
-  return std::span(graph.neighbours)
-      .subspan(graph.offsets[v], graph.offsets[v + 1] - graph.offsets[v]);
-}
-
 bool ready(const Graph& graph, const std::vector<std::int32_t>& colors, std::int32_t v) {
-  return std::ranges::none_of(row(graph, v), [&](std::int32_t u) {
+  return std::ranges::none_of(graph.row(v), [&](std::int32_t u) {
     return colors[u] == kUncolored && priority(u) > priority(v);
   });
 }
@@ -38,7 +32,7 @@ std::int32_t smallest_free(const Graph& graph, const std::vector<std::int32_t>& 
                            std::int32_t v) {
   for (std::int32_t base = 0;; base += 64) {
     std::uint64_t used = 0;
-    for (const std::int32_t u : row(graph, v)) {
+    for (const std::int32_t u : graph.row(v)) {
       if (priority(u) <= priority(v)) continue;
       const std::int32_t c = colors[u] - base;
       if (c >= 0 && c < 64) used |= std::uint64_t{1} << c;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cavea {
@@ -14,6 +15,9 @@ struct Graph {
   std::vector<std::int32_t> vertex_weights;  ///< one a vertex
 
   std::int32_t size() const { return static_cast<std::int32_t>(offsets.size()) - 1; }
+  std::span<const std::int32_t> row(std::int32_t v) const {
+    return std::span(neighbours).subspan(offsets[v], offsets[v + 1] - offsets[v]);
+  }
 };
 
 }  // namespace cavea

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cavea/base/parallel.h"
+#include "cavea/mesh/union_find.h"
 
 namespace cavea {
 namespace {
@@ -75,6 +76,25 @@ Graph conflicts_of(const std::vector<TetList>& lists) {
   parallel_sort(pairs.begin(), pairs.end(), std::less<>{});
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return graph_of(pairs, lists.size());
+}
+
+std::vector<TetList> joined(std::vector<TetList> lists, const Graph& conflicts) {
+  UnionFind sets(lists.size());
+  for (std::int32_t k = 0; k < conflicts.size(); ++k)
+    for (const std::int32_t other : conflicts.row(k)) sets.join(k, other);
+  std::vector<TetList> result;
+  std::vector<std::size_t> place(lists.size());  // of a root's list in the result
+  for (std::size_t k = 0; k < lists.size(); ++k) {
+    const auto root = std::size_t(sets.root(std::int32_t(k)));
+    if (root == k) {  // the smallest of its set
+      place[k] = result.size();
+      result.push_back(std::move(lists[k]));
+    } else {
+      TetList& list = result[place[root]];
+      list.insert(list.end(), lists[k].begin(), lists[k].end());
+    }
+  }
+  return result;
 }
 
 }  // namespace cavea

@@ -14,4 +14,7 @@ std::vector<TetList> clusters_of(const TetMesh& mesh, const TetList& tets, std::
 /// Lists are neighbours in the graph if they share a tet. \pre none names a tet twice
 Graph conflicts_of(const std::vector<TetList>& lists);
 
+/// The lists of each connected component of their conflicts, one after the other.
+std::vector<TetList> joined(std::vector<TetList> lists, const Graph& conflicts);
+
 }  // namespace cavea

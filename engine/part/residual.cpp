@@ -18,6 +18,11 @@ namespace {
 /// inside; this many passes end what would not end.
 constexpr int kPasses = 20;
 
+/// Where a pass leaves more than this share of what was blocked, as among needles, whose vertices
+/// have hundreds of tets, each region blocks what the one beside it has asked. Sound meshes: a few
+/// percent.
+constexpr double kUnsettled = 0.8;
+
 /// A cluster of more blocked tets than this is cut, so that regions are many and small.
 constexpr std::size_t kCluster = 256;
 
@@ -36,17 +41,20 @@ TetList blocked_tets(const TetMesh& m) {
 class Batches {
  public:
   Batches(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings, int layers,
-          ResidualCount& count, VerdictTable& verdicts)
+          bool join, ResidualCount& count, VerdictTable& verdicts)
       : mesh_(mesh),
         surface_(surface),
         settings_(settings),
         layers_(layers),
+        join_(join),
         count_(count),
         verdicts_(verdicts) {}
 
   void run() {
     std::vector<TetList> clusters = clusters_of(mesh_, blocked_tets(mesh_), kCluster);
-    const Coloring coloring = color(conflicts_of(regions_around(clusters)));
+    const Graph conflicts = conflicts_of(regions_around(clusters));
+    if (join_) return run_batch(joined(std::move(clusters), conflicts));
+    const Coloring coloring = color(conflicts);
     count_.colors = std::max(count_.colors, coloring.count);
     for (std::int32_t c = 0; c < coloring.count; ++c) {
       std::vector<TetList> batch;
@@ -96,6 +104,7 @@ class Batches {
   const SurfaceModel& surface_;
   const CycleSettings& settings_;
   int layers_;
+  bool join_;  ///< the regions that conflict, in place of running them in turns
   ResidualCount& count_;
   VerdictTable& verdicts_;
 };
@@ -133,15 +142,18 @@ ResidualCount run_residual(TetMesh& mesh, const SurfaceModel& surface,
   ResidualCount count;
   TetList blocked = blocked_tets(mesh);
   count.before = std::int64_t(blocked.size());
+  bool join = false;
   for (int pass = 0; !blocked.empty() && pass < kPasses; ++pass) {
     const int layers = kLayers + pass / 2;
+    const auto before = double(blocked.size());
     std::vector<Part> part = take_out(mesh, std::move(blocked), layers);
-    Batches(part[0].mesh, surface, few_sweeps, layers, count, verdicts).run();
+    Batches(part[0].mesh, surface, few_sweeps, layers, join, count, verdicts).run();
     std::vector<std::int32_t> labels;
     stitch_parts(mesh, part, labels);
     part_of_tet.resize(mesh.tets.size(), kIdle);
     remove_holes(mesh, part_of_tet);
     blocked = blocked_tets(mesh);
+    join |= double(blocked.size()) > kUnsettled * before;
   }
   count.after = std::int64_t(blocked.size());
   return count;

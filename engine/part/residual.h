@@ -26,8 +26,8 @@ std::int64_t count_blocked(const TetMesh& mesh);
 /// Asks what the rounds' interfaces have blocked, and that alone, until nothing is. Clusters of
 /// blocked tets with layers of others around them are regions; those that share no tet run at the
 /// same time, as small parts, colour by colour of their conflict graph. This may block tets at the
-/// rims of regions, which the next pass asks in larger ones. The result has no holes and does not
-/// depend on the number of threads.
+/// rims of regions, which the next pass asks in larger ones; where that goes to and fro, regions
+/// that conflict are joined. The result has no holes and does not depend on the number of threads.
 /// \param part_of_tet by tet, kept in step: what is new has the part of what it replaces
 /// \param verdicts gets those of the operators, too
 /// \pre no holes \throw Cancelled

@@ -39,14 +39,17 @@ std::vector<SizeSphere> spots_of(const SurfaceDistance& distance, const TetMesh&
   return spots;
 }
 
-void repair(Job& job, const SurfaceDistance& distance) {
+/// \return false if sizes there are as small as they may get, and nothing was asked
+bool repair(Job& job, const SurfaceDistance& distance) {
   job.input.keep(job.mesh);
   const std::vector<float> sizes_before =
       job.sizes.lower(job.mesh, job.surface.model(), spots_of(distance, job.mesh, job.r),
                       job.r.finest, steepest_growth(job.r));
   ask_nothing(job.mesh);
   ask_changed_lengths(job.mesh, sizes_before);
+  if (is_nothing_asked(job.mesh)) return false;
   run_phases(job, mending_recipe(job.r));
+  return true;
 }
 
 /// Repairs make the surface finer, which would break a budget that binds. Where the size is to be
@@ -103,7 +106,9 @@ SurfaceDistance measure_and_repair(Job& job) {
   const auto repair_all = [&] {
     for (; repairs < kMostRepairs && may_repair(job, distance) && is_far(job, distance, repairs);
          ++repairs) {
-      job.steps.timed("repair", [&] { repair(job, distance); });
+      bool is_tried = false;
+      job.steps.timed("repair", [&] { is_tried = repair(job, distance); });
+      if (!is_tried) break;
       distance = finish_and_measure(job);
     }
   };

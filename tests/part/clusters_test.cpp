@@ -2,6 +2,7 @@
 
 #include <numeric>
 #include <set>
+#include <span>
 
 #include "part/support.h"
 
@@ -53,13 +54,19 @@ TEST(Clusters, AreApartUnlessTheyAreFull) {
     for (const TetId b : clusters[1]) EXPECT_FALSE(share_a_vertex(mesh, a, b));
 }
 
-TEST(Conflicts, AreOfListsThatShareATet) {
-  constexpr std::uint64_t kSeed = 7;
-  constexpr int kLists = 40, kTets = 200, kMembers = 8;
-  Random random(kSeed);
+constexpr int kLists = 40, kTets = 200;
+
+std::vector<std::set<TetId>> random_sets(std::size_t members, std::uint64_t seed) {
+  Random random(seed);
   std::vector<std::set<TetId>> sets(kLists);
   for (auto& set : sets)
-    while (int(set.size()) < kMembers) set.insert(random.below(kTets));
+    while (set.size() < members) set.insert(random.below(kTets));
+  return sets;
+}
+
+TEST(Conflicts, AreOfListsThatShareATet) {
+  constexpr std::uint64_t kSeed = 7;
+  const std::vector<std::set<TetId>> sets = random_sets(8, kSeed);
   std::vector<TetList> lists;
   for (const auto& set : sets) lists.emplace_back(set.begin(), set.end());
   const Graph graph = conflicts_of(lists);
@@ -69,10 +76,28 @@ TEST(Conflicts, AreOfListsThatShareATet) {
     for (int b = 0; b < kLists; ++b)
       if (b != a && std::ranges::any_of(sets[a], [&](TetId t) { return sets[b].contains(t); }))
         expected.push_back(b);
-    const std::vector<std::int32_t> row(graph.neighbours.begin() + graph.offsets[a],
-                                        graph.neighbours.begin() + graph.offsets[a + 1]);
-    EXPECT_EQ(row, expected) << "list " << a << ", seed " << kSeed;
+    const std::span<const std::int32_t> row = graph.row(a);
+    EXPECT_EQ(std::vector(row.begin(), row.end()), expected) << "list " << a << ", seed " << kSeed;
   }
+}
+
+TEST(Conflicts, AreGoneOnceTheirListsAreJoined) {
+  constexpr std::uint64_t kSeed = 11;
+  std::vector<TetList> lists;
+  std::set<TetId> all;
+  for (const auto& set : random_sets(2, kSeed)) {
+    lists.emplace_back(set.begin(), set.end());
+    all.insert(set.begin(), set.end());
+  }
+  const std::vector<TetList> components = joined(lists, conflicts_of(lists));
+  EXPECT_GT(components.size(), 1u) << "seed " << kSeed;
+  EXPECT_LT(components.size(), lists.size()) << "seed " << kSeed;
+  std::set<TetId> seen;
+  for (const TetList& list : components) {
+    const std::set<TetId> members(list.begin(), list.end());
+    for (const TetId t : members) EXPECT_TRUE(seen.insert(t).second) << "seed " << kSeed;
+  }
+  EXPECT_EQ(seen, all) << "seed " << kSeed;
 }
 
 }  // namespace
