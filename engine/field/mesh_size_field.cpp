@@ -32,10 +32,11 @@ std::vector<Box> boxes_of(const std::vector<Vec3>& points, const std::vector<Tet
 /// The barycentric coordinates of p in a tet; none if p is not inside, or the tet is so flat that
 /// they would be rounding.
 std::optional<Weights> weights_inside(const Vec3& p, const std::array<Vec3, 4>& c) {
-  const Weights w = {volume6(p, c[1], c[2], c[3]), volume6(c[0], p, c[2], c[3]),
-                     volume6(c[0], c[1], p, c[3]), volume6(c[0], c[1], c[2], p)};
-  for (const double x : w)
-    if (!(x >= 0)) return std::nullopt;
+  Weights w;
+  if (!((w[0] = volume6(p, c[1], c[2], c[3])) >= 0)) return std::nullopt;
+  if (!((w[1] = volume6(c[0], p, c[2], c[3])) >= 0)) return std::nullopt;
+  if (!((w[2] = volume6(c[0], c[1], p, c[3])) >= 0)) return std::nullopt;
+  if (!((w[3] = volume6(c[0], c[1], c[2], p)) >= 0)) return std::nullopt;
   if (!certainly_positive(c[0], c[1], c[2], c[3])) return std::nullopt;
   const double sum = w[0] + w[1] + w[2] + w[3];
   return Weights{w[0] / sum, w[1] / sum, w[2] / sum, w[3] / sum};
@@ -87,16 +88,11 @@ double MeshSizeField::weigh(std::size_t slot, const Weights& weights) const {
 /// The tets whose box holds p are asked until one has it; where several do, on a common face, they
 /// agree.
 bool MeshSizeField::find_inside(const Vec3& p, double& size) const {
-  double bound2 = std::numeric_limits<double>::min();  // visits boxes at distance zero only
-  bool found = false;
-  tree_.visit_near(p, bound2, [&](std::size_t slot) {
-    if (found) return;
+  return tree_.any_overlapping({p, p}, [&](std::size_t slot) {
     const std::optional<Weights> weights = weights_inside(p, corners(slot));
-    if (!weights) return;
-    size = weigh(slot, *weights);
-    found = true, bound2 = 0;
+    if (weights) size = weigh(slot, *weights);
+    return weights.has_value();
   });
-  return found;
 }
 
 double MeshSizeField::at_nearest(const Vec3& p) const {

@@ -61,7 +61,15 @@ class BoxTree {
   /// some more.
   template <class Visit>
   void visit_overlapping(const Box& box, Visit&& visit) const {
-    if (order_.empty()) return;
+    any_overlapping(box, [&](std::size_t slot) {
+      visit(slot);
+      return false;
+    });
+  }
+  /// The same until is(slot) is true. \return whether it was for one
+  template <class Is>
+  bool any_overlapping(const Box& box, Is&& is) const {
+    if (order_.empty()) return false;
     std::array<std::size_t, kMaxLevels + 2> stack;
     std::size_t depth = 0;
     stack[depth++] = 0;
@@ -74,8 +82,10 @@ class BoxTree {
         continue;
       }
       const auto [begin, end] = range(levels_, node - first_leaf());
-      for (std::size_t slot = begin; slot < end; ++slot) visit(slot);
+      for (std::size_t slot = begin; slot < end; ++slot)
+        if (is(slot)) return true;
     }
+    return false;
   }
 
  private:

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "cavea/base/cancel.h"
@@ -191,8 +193,13 @@ class SeedLevel {
     grow(mesh_, tets, vertices, kSpareShare);
   }
 
+  /// The largest block first, so that the last to finish is small.
   void insert_color(std::vector<Block>& blocks, std::size_t begin, std::size_t end) {
-    parallel_tasks(end - begin, [&](std::size_t i) { insert_block(blocks[begin + i]); });
+    std::vector<std::size_t> order(end - begin);
+    std::iota(order.begin(), order.end(), begin);
+    std::ranges::stable_sort(order, std::greater<>{},
+                             [&](std::size_t b) { return blocks[b].end - blocks[b].begin; });
+    parallel_tasks(order.size(), [&](std::size_t i) { insert_block(blocks[order[i]]); });
   }
 
   void insert_block(Block& b) {

@@ -22,6 +22,9 @@ constexpr double kCoarsest = 4;
 /// Levels below hmax: sizes between are never more different.
 constexpr int kMostLevels = 40;
 
+/// So few of a level's vertices are left where they come to be, as sorting them takes more time.
+constexpr double kManySeeds = 0.1;
+
 /// Better tets are not offered swaps while lengths are adapted; those of the lattices are well
 /// above.
 constexpr double kGoodTet = 0.75;
@@ -69,7 +72,8 @@ std::int64_t seed_interior(TetMesh& mesh, const SizeLaw& law, const std::atomic<
     const VerdictTable result = seed_level(mesh, options, level, coarsest);
     const std::int64_t inserted = result.accepted(Operator::kVertexInsert);
     // New numbers are those of blocks and colours, far from what is beside them.
-    if (inserted > 0 && mesh.tets.size() >= kNearAnyway)
+    const bool many = double(inserted) > kManySeeds * double(mesh.points.size());
+    if (many && mesh.tets.size() >= kNearAnyway)
       sort_along_curve(mesh);
     else
       compact(mesh);
