@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "cavea/geometry/centroid.h"
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/attempt.h"
+#include "cavea/remesh/obstacle.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/repair.h"
 #include "cavea/remesh/rounds.h"
@@ -32,6 +34,15 @@ constexpr int kHalvings = 3;
 
 /// What is done in a spot changes what is beside it.
 constexpr double kAround = 2;
+
+/// The last tets are often such by chance: between walls of 14 degrees those at the edge are good
+/// only if both walls have as many vertices along it. Other sizes make another mesh there.
+constexpr double kOtherSizes[] = {0.8, 0.65, 0.9, 0.72};
+/// So many trials are made, for so many tets all together, lest they take longer than the run; more
+/// places than that are not chance.
+constexpr int kMostTrials = 40, kFewestTrials = 8;
+constexpr double kTetsOfTrials = 1e6;
+constexpr std::size_t kMostPlaces = 30;
 
 std::vector<Vec3> centers_of(const TetMesh& mesh, const std::vector<TetId>& tets) {
   std::vector<Vec3> centers;
@@ -57,6 +68,23 @@ class Refinement {
       if (!refine_once()) return;
   }
 
+  /// The last tets one by one, each with several other sizes, but where angles of the domain are
+  /// the reason.
+  void refine_singly() {
+    int left =
+        std::clamp(int(kTetsOfTrials / double(job_.mesh.tets.size())), kFewestTrials, kMostTrials);
+    for (const double share : kOtherSizes) {
+      failed_.clear();
+      for (; left > 0; --left) {
+        const std::vector<TetId> bad = tets_below(job_.mesh, aim_.quality);
+        const std::optional<SizeSphere> spot = first_blameless_spot(bad, share);
+        if (!spot) break;
+        if (!refine_at({*spot}, bad, standard_of(job_.mesh, distance_)))
+          failed_.push_back({spot->center, spot->radius});
+      }
+    }
+  }
+
  private:
   /// \return whether fewer tets are below the quality
   bool refine_once() {
@@ -71,22 +99,37 @@ class Refinement {
     return false;
   }
 
-  /// Around the bad tets, but where that has failed or sizes are as small as they may be; none if
-  /// they are too many.
+  /// Around the bad tets; none if they are too many.
   std::vector<SizeSphere> hopeful_spots(const std::vector<TetId>& bad) const {
-    const TetMesh& mesh = job_.mesh;
-    if (bad.size() > kMost || double(bad.size()) > kFew * double(mesh.tets.size())) return {};
-    const double finest = job_.r.finest;
+    constexpr double kHalf = 0.5;
+    if (bad.size() > kMost || double(bad.size()) > kFew * double(job_.mesh.tets.size())) return {};
     std::vector<SizeSphere> spots;
-    for (const TetId t : bad) {
-      SizeSphere spot = spot_over(mesh, centroid(mesh.corners(t)), mesh.tets[t]);
-      const bool failed = std::ranges::any_of(
-          failed_, [&](const FailedPlace& f) { return f.contains(spot.center); });
-      if (failed || spot.size <= finest) continue;
-      spot.size = std::max(finest, spot.size / 2);
-      spots.push_back(spot);
-    }
+    for (const TetId t : bad)
+      if (const auto spot = hopeful_spot(t, kHalf)) spots.push_back(*spot);
     return spots;
+  }
+
+  /// Around the worst tet for which the angles of the domain are not to blame; none if the bad ones
+  /// are too many.
+  std::optional<SizeSphere> first_blameless_spot(const std::vector<TetId>& bad,
+                                                 double share) const {
+    if (bad.size() > kMostPlaces) return {};
+    OperatorContext context(job_.mesh, job_.surface.working_model());
+    for (const TetId t : bad)
+      if (const auto spot = hopeful_spot(t, share); spot && !is_too_sharp(context, t)) return spot;
+    return {};
+  }
+
+  /// Around a bad tet, with so much of the sizes that are there; none where that has failed or
+  /// these are as small as they may be.
+  std::optional<SizeSphere> hopeful_spot(TetId t, double share) const {
+    const TetMesh& mesh = job_.mesh;
+    SizeSphere spot = spot_over(mesh, centroid(mesh.corners(t)), mesh.tets[t]);
+    const bool failed =
+        std::ranges::any_of(failed_, [&](const FailedPlace& f) { return f.contains(spot.center); });
+    if (failed || spot.size <= job_.r.finest) return {};
+    spot.size = std::max(job_.r.finest, share * spot.size);
+    return spot;
   }
 
   /// False if that was in vain: then it is taken back, and its failures are known.
@@ -176,7 +219,9 @@ void refine_narrow_places(Job& job, SurfaceDistance& distance,
   const Freezes& freeze = job.r.freeze;
   if (job.keeping.stands || freeze.insert || freeze.surface || job.sizes.budget().binds()) return;
   const double steep = steepest_growth(job.r), slow = job.r.hgrad;
-  Refinement(job, {kSoundQuality, steep, kTrials}, distance, measure).refine();
+  Refinement narrow(job, {kSoundQuality, steep, kTrials}, distance, measure);
+  narrow.refine();
+  narrow.refine_singly();
   if (job.r.uniform()) {
     // Worth the lengths that do not conform only if it is the end of it.
     if (slow < steep && !unsound_tets(job.mesh).empty())

@@ -293,6 +293,13 @@ std::vector<TetId> poor_tets_around(OperatorContext& c, TetId t) {
 
 }  // namespace
 
+bool is_too_sharp(OperatorContext& c, TetId t) {
+  return std::ranges::any_of(poor_tets_around(c, t), [&](TetId n) {
+    return sharpest_wedge(c, n) < kSmallAngle || sharpest_tip(c, n) < kSmallFaceAngle ||
+           narrowest_point(c, n) < kSmallTip;
+  });
+}
+
 std::string obstacle_of(OperatorContext& c, TetId t) {
   std::string what = obstacle_at(c, t);
   for (int f = 0; f < 4 && what.empty(); ++f)

@@ -11,4 +11,8 @@ namespace cavea {
 /// if none. \pre no holes, no part
 std::string obstacle_of(OperatorContext& context, TetId t);
 
+/// Whether the surface, feature curves or a tip of the domain are so sharp at t, or at poor tets
+/// around, that no mesh has sound tets there. \pre no holes, no part
+bool is_too_sharp(OperatorContext& context, TetId t);
+
 }  // namespace cavea

@@ -86,6 +86,18 @@ TEST(NarrowPlaces, WhatIsInVainIsTakenBack) {
   EXPECT_GE(*std::ranges::min_element(mesh.sizes), 0.99 * kFine);
 }
 
+/// Between walls of so small an angle tets at their common edge are sound only if both have as many
+/// vertices along it; above 13 degrees they can be.
+TEST(NarrowPlaces, AtTheEdgeOfAWedgeAreTriedUntilTheyAreSound) {
+  for (const double degrees : {14.0, 14.5, 15.0}) {
+    SCOPED_TRACE(testing::Message() << degrees << " degrees");
+    TetMesh mesh = built(wedge(degrees));
+    const Report report = remesh(mesh, {}, {});
+    expect_sound(mesh);
+    EXPECT_GE(report.after.quality.worst, 0.3);
+  }
+}
+
 TEST(NarrowPlaces, AreNotRefinedWhereFrozenOrSound) {
   EXPECT_FALSE(was_refined(report_of(kuhn_cube(4), options_of_size())));
   Options options = options_of_size();
