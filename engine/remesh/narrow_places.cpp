@@ -40,7 +40,7 @@ constexpr double kAround = 2;
 constexpr double kOtherSizes[] = {0.8, 0.65, 0.9, 0.72};
 /// So many trials are made, for so many tets all together, lest they take longer than the run; more
 /// places than that are not chance.
-constexpr int kMostTrials = 40, kFewestTrials = 8;
+constexpr int kMostTrials = 40, kFewestTrials = 2;
 constexpr double kTetsOfTrials = 1e6;
 constexpr std::size_t kMostPlaces = 30;
 
