@@ -40,7 +40,9 @@ constexpr double kAround = 2;
 constexpr double kOtherSizes[] = {0.8, 0.65, 0.9, 0.72};
 /// So many trials are made, for so many tets all together, lest they take longer than the run; more
 /// places than that are not chance.
-constexpr int kMostTrials = 40, kFewestTrials = 2;
+constexpr int kMostTrials = 40, kFewestTrials = 6;
+/// In a large mesh each takes a tenth of the run, and a uniform size is kept if there is a choice.
+constexpr int kFewestOfUniform = 2;
 constexpr double kTetsOfTrials = 1e6;
 constexpr std::size_t kMostPlaces = 30;
 
@@ -71,8 +73,8 @@ class Refinement {
   /// The last tets one by one, each with several other sizes, but where angles of the domain are
   /// the reason.
   void refine_singly() {
-    int left =
-        std::clamp(int(kTetsOfTrials / double(job_.mesh.tets.size())), kFewestTrials, kMostTrials);
+    int left = std::clamp(int(kTetsOfTrials / double(job_.mesh.tets.size())),
+                          job_.r.uniform() ? kFewestOfUniform : kFewestTrials, kMostTrials);
     for (const double share : kOtherSizes) {
       failed_.clear();
       for (; left > 0; --left) {
