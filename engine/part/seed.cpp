@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 #include "cavea/base/cancel.h"
 #include "cavea/base/collect.h"
+#include "cavea/base/largest_first.h"
 #include "cavea/base/parallel.h"
 #include "cavea/cavity/mesh_editor.h"
 #include "cavea/mesh/grow.h"
@@ -193,13 +192,11 @@ class SeedLevel {
     grow(mesh_, tets, vertices, kSpareShare);
   }
 
-  /// The largest block first, so that the last to finish is small.
   void insert_color(std::vector<Block>& blocks, std::size_t begin, std::size_t end) {
-    std::vector<std::size_t> order(end - begin);
-    std::iota(order.begin(), order.end(), begin);
-    std::ranges::stable_sort(order, std::greater<>{},
-                             [&](std::size_t b) { return blocks[b].end - blocks[b].begin; });
-    parallel_tasks(order.size(), [&](std::size_t i) { insert_block(blocks[order[i]]); });
+    const std::vector<std::size_t> order = largest_first(end - begin, [&](std::size_t i) {
+      return blocks[begin + i].end - blocks[begin + i].begin;
+    });
+    parallel_tasks(order.size(), [&](std::size_t i) { insert_block(blocks[begin + order[i]]); });
   }
 
   void insert_block(Block& b) {
