@@ -17,9 +17,6 @@
 namespace cavea {
 namespace {
 
-/// Points are wanted where their lattice's cells are at least this many wanted sizes.
-constexpr double kFinestCell = 0.75;
-
 /// In boxes with fewer points all are looked at.
 constexpr double kFewPoints = 4096;
 

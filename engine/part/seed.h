@@ -9,6 +9,9 @@
 
 namespace cavea {
 
+/// Points are wanted where their lattice's cells are at least this many wanted sizes.
+inline constexpr double kFinestCell = 0.75;
+
 /// The wanted size at a point, given a bound that the vertices around it impose.
 using SeedSize = std::function<double(const Vec3& point, double bound)>;
 

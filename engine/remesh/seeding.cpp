@@ -10,12 +10,11 @@
 #include "cavea/mesh/statistics.h"
 #include "cavea/part/order.h"
 #include "cavea/part/seed.h"
+#include "cavea/remesh/lattice_cell.h"
 
 namespace cavea {
 namespace {
 
-/// Cells of this many wanted sizes give edges of 1.08 and 0.94 of them: one on the average.
-constexpr double kCell = 1.08;
 /// The coarsest lattice has this many cells in the mesh's diagonal: then a cavity is not much of
 /// the whole.
 constexpr double kCoarsest = 4;
@@ -61,10 +60,11 @@ std::int64_t seed_interior(TetMesh& mesh, const SizeLaw& law, const std::atomic<
   options.largest = law.hmax;
   options.cancel = cancel;
   if (law.field) options.size = [&](const Vec3& p, double bound) { return law.bounded(p, bound); };
-  // The largest size is that of most of the volume: its cells are to fit.
+  // Unless the caller gives sizes, the largest one is that of most of the volume: it is to fit.
+  const double cell = law.field ? fitting_cell(mesh, law) : kLatticeCell * law.hmax;
   const double smallest = *std::ranges::min_element(mesh.sizes);
   const int levels = std::clamp(int(std::ceil(std::log2(law.hmax / smallest))), 0, kMostLevels);
-  options.lattice.cell = std::ldexp(kCell * law.hmax, -levels);
+  options.lattice.cell = std::ldexp(cell, -levels);
   const double cells = box_diagonal(mesh) / (kCoarsest * options.lattice.cell);
   const int coarsest = std::max(0, int(std::floor(std::log2(cells))));
   std::int64_t seeds = 0;
