@@ -64,6 +64,13 @@ double forecast_tets(const TetMesh& mesh, const SizeLaw& law) {
   });
 }
 
+double forecast_about(const TetMesh& mesh, const SizeLaw& law) {
+  double tets = 0;
+  for_each_size_about(mesh, law,
+                      [&](double volume, double size) { tets += tets_in(volume, size); });
+  return tets;
+}
+
 void refuse_too_large(const TetMesh& mesh, const SizeLaw& law, std::int64_t bytes) {
   const double most = most_tets(mesh, law);
   if (most < double(kMaxTets) && kBytesPerTet * most <= double(bytes)) return;

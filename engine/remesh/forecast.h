@@ -10,6 +10,9 @@ namespace cavea {
 /// \pre no holes
 double forecast_tets(const TetMesh& mesh, const SizeLaw& law);
 
+/// The same from a sample of a large mesh: its tets are taken to be as those looked at.
+double forecast_about(const TetMesh& mesh, const SizeLaw& law);
+
 /// A bound of it from above, which costs next to nothing.
 double most_tets(const TetMesh& mesh, const SizeLaw& law);
 

@@ -15,19 +15,13 @@ namespace {
 /// Levels of `hmax` and below whose sizes are told apart, and how finely.
 constexpr int kOctaves = 40, kBinsPerOctave = 32;
 
-/// So many tets are looked at, at least: looking sizes up takes time.
-constexpr std::size_t kSample = 5000;
-
 /// The volume of what wants sizes of hmax / 2^((i + 1/2) / kBinsPerOctave).
 std::vector<double> volume_by_size(const TetMesh& mesh, const SizeLaw& law) {
   std::vector<double> volumes(kOctaves * kBinsPerOctave, 0);
-  const auto add = [&](double volume, double size) {
+  for_each_size_about(mesh, law, [&](double volume, double size) {
     const double bin = std::floor(kBinsPerOctave * std::log2(law.hmax / size));
     volumes[std::size_t(std::clamp(bin, 0.0, double(volumes.size() - 1)))] += volume;
-  };
-  const std::size_t stride = std::max<std::size_t>(1, mesh.tets.size() / kSample);
-  for (std::size_t t = 0; t < mesh.tets.size(); t += stride)
-    for_each_size(mesh, TetId(t), law, add);
+  });
   return volumes;
 }
 

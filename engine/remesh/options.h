@@ -16,7 +16,8 @@ struct Progress {
   const char* phase = "";
   int round = 0;
   std::int64_t tets = 0;
-  double seconds = 0;  ///< since the start of remesh()
+  std::int64_t wanted = 0;  ///< about how many tets there will be, once that is known
+  double seconds = 0;       ///< since the start of remesh()
 };
 
 /// What a run may not do.

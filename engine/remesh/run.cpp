@@ -21,6 +21,7 @@ void Run::operator()() {
   job_.steps.timed("analysis", [&] { analyse(); });
   job_.keeping = keep_what_stands(job_, effort_);
   if (!job_.keeping.stands) {
+    job_.steps.expect(forecast_about(job_.mesh, job_.sizes.law()));
     refuse_too_large(job_.mesh, job_.sizes.law(), job_.most_bytes);
     job_.steps.timed("contraction", [&] { coarsen_in_bulk(job_); });
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "cavea/base/timer.h"
@@ -23,6 +24,9 @@ class Steps {
     times_.push_back({name, timer.seconds()});
   }
 
+  /// From now on the caller is told that there will be about so many tets.
+  void expect(double tets) { wanted_ = std::int64_t(tets); }
+
   /// \throw Cancelled if the caller wants no more
   void tell(const char* phase, int round) const;
 
@@ -30,6 +34,7 @@ class Steps {
   const TetMesh& mesh_;
   const Options& options_;
   std::vector<PhaseTime>& times_;
+  std::int64_t wanted_ = 0;
   Timer since_start_;
 };
 

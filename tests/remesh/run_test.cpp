@@ -108,6 +108,21 @@ TEST(Remesh, WhoseProgressThrowsLeavesTheMesh) {
   expect_same(mesh, start);
 }
 
+TEST(Remesh, TellsHowManyTetsThereWillBe) {
+  TetMesh mesh = built(kuhn_cube(2));
+  Options options = uniform(0.05);
+  Progress last;
+  std::int64_t of_seeding = 0;
+  options.progress = [&](const Progress& p) {
+    last = p;
+    if (std::string(p.phase) == "seeding") of_seeding = p.wanted;
+  };
+  remesh(mesh, {}, options);
+  const auto tets = double(mesh.tets.size());
+  EXPECT_NEAR(double(last.wanted), tets, 0.3 * tets);
+  EXPECT_EQ(of_seeding, last.wanted);
+}
+
 TEST(Remesh, ReportsWhatItDid) {
   TetMesh mesh = built(kuhn_cube(4));
   const Report report = remesh(mesh, {}, uniform(0.1, 2));

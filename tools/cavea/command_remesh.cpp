@@ -2,8 +2,10 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <optional>
 
 #include "cavea/base/error.h"
 #include "cavea/base/memory.h"
@@ -14,6 +16,7 @@
 #include "cavea/remesh/remesh.h"
 #include "exit_status.h"
 #include "grid_domain.h"
+#include "heap.h"
 #include "interrupt.h"
 #include "load.h"
 #include "output_names.h"
@@ -67,10 +70,13 @@ std::function<void(TetMesh&)> finish_on(const std::vector<CutLevelSet>& level_se
 }
 
 /// Runs the library with a progress line, which is gone when this returns.
-Report run_library(TetMesh& mesh, const SizeField& field, Options options, bool quiet) {
-  if (quiet) return remesh(mesh, field, options);
-  ProgressPrinter printer;
-  options.progress = [&printer](const Progress& p) { printer.show(p); };
+Report run_library(TetMesh& mesh, const SizeField& field, Options options, bool quiet, Heap& heap) {
+  std::optional<ProgressPrinter> printer;
+  if (!quiet) printer.emplace();
+  options.progress = [&](const Progress& p) {
+    heap.expect(std::max(p.tets, p.wanted));
+    if (printer) printer->show(p);
+  };
   return remesh(mesh, field, options);
 }
 
@@ -87,8 +93,8 @@ std::vector<std::filesystem::path> write_all(const MeshData& data, RunReport& ru
   return outputs.publish();
 }
 
-RunReport remesh_file(const RemeshArguments& arguments, Options options,
-                      const Interrupt& interrupt) {
+RunReport remesh_file(const RemeshArguments& arguments, Options options, const Interrupt& interrupt,
+                      Heap& heap) {
   Timer timer;
   Prepared prepared = prepare(arguments, options);
   LoadedMesh& loaded = prepared.loaded;
@@ -104,7 +110,7 @@ RunReport remesh_file(const RemeshArguments& arguments, Options options,
   options.directions = true;
   options.finish = finish_on(prepared.level_sets);
   RunReport run{arguments,
-                run_library(loaded.mesh, prepared.field, options, arguments.quiet),
+                run_library(loaded.mesh, prepared.field, options, arguments.quiet, heap),
                 {},
                 read_seconds};
   run.level_sets = measure(prepared.level_sets, loaded.mesh);
@@ -129,7 +135,7 @@ RunReport remesh_file(const RemeshArguments& arguments, Options options,
 
 }  // namespace
 
-int run_remesh(const RemeshArguments& arguments) {
+int run_remesh(const RemeshArguments& arguments, Heap& heap) {
   if (arguments.implicit) check_level_set(*arguments.implicit, is_grid(arguments.input));
   if (arguments.implicit && is_grid(arguments.input) && !arguments.sizes.empty())
     throw OptionError("--met is for a mesh: a .vdb file has no vertices");
@@ -141,7 +147,7 @@ int run_remesh(const RemeshArguments& arguments) {
   const Control threads(Control::max_allowed_parallelism,
                         std::size_t(options.threads > 0 ? options.threads : default_threads()));
   try {
-    const RunReport run = remesh_file(arguments, options, interrupt);
+    const RunReport run = remesh_file(arguments, options, interrupt, heap);
     std::fputs(missed_text(run.report).c_str(), stderr);
     return run.report.targets_met() ? kDone : kMissed;
   } catch (const Cancelled&) {

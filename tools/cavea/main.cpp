@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -12,6 +11,7 @@
 #include "command_info.h"
 #include "command_remesh.h"
 #include "exit_status.h"
+#include "heap.h"
 
 namespace {
 
@@ -40,7 +40,7 @@ int guarded(const std::function<int()>& command) {
   }
 }
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, Heap& heap) {
   CLI::App app{"Parallel tetrahedral remeshing.", "cavea"};
   app.set_version_flag("--version", "cavea " CAVEA_VERSION);
   app.require_subcommand(1);
@@ -58,21 +58,14 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return fail(kBadInput, fmt::format("{} (--help tells more)", e.what()).c_str());
   }
-  if (implicit->parsed()) return run_remesh(implicit_arguments);
+  if (implicit->parsed()) return run_remesh(implicit_arguments, heap);
   if (grid->parsed()) return run_grid(grid_arguments);
-  return remesh->parsed() ? run_remesh(remesh_arguments) : run_info(info_arguments);
+  return remesh->parsed() ? run_remesh(remesh_arguments, heap) : run_info(info_arguments);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Arrays of large meshes go back to the system when they are freed. By default the allocator
-  // learns from the first ones to keep what is as large, and half of the memory is then holes.
-  constexpr int kLargeBlock = 1 << 18;
-  mallopt(M_MMAP_THRESHOLD, kLargeBlock);
-  // The ends of heaps are kept: by default each smaller array that is freed there goes back, too,
-  // and its pages have to be cleared for the next one.
-  constexpr int kKept = 1 << 26;
-  mallopt(M_TRIM_THRESHOLD, kKept);
-  return guarded([&] { return run(argc, argv); });
+  Heap heap;
+  return guarded([&] { return run(argc, argv, heap); });
 }
