@@ -6,6 +6,14 @@
 
 namespace cavea {
 
+namespace {
+
+/// Levels that all threads work on, node by node; what is below a node of the last one fits a cache
+/// and is parted to the end by one thread.
+constexpr int kCommonLevels = 6;
+
+}  // namespace
+
 BoxTree::BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {
   if (order_.empty()) return;
   while (order_.size() >> levels_ > kLeafSize) ++levels_;
@@ -13,38 +21,41 @@ BoxTree::BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {
   parallel_for(boxes.size(), [&](std::size_t i) {
     centres[i] = {boxes[i].low + boxes[i].high, std::int32_t(i)};
   });
-  for (int level = 0; level < levels_; ++level) sort_level(level, centres);
+  const auto for_nodes = [&](int level, auto&& work) {
+    parallel_for(std::size_t{1} << level, work, 1);
+  };
+  const int common = std::min(levels_, kCommonLevels);
+  for (int level = 0; level < common; ++level)
+    for_nodes(level, [&](std::size_t k) { part(level, k, centres); });
+  for_nodes(common, [&](std::size_t k) {
+    for (int level = common; level < levels_; ++level) {
+      const std::size_t nodes = std::size_t{1} << (level - common);
+      for (std::size_t i = 0; i < nodes; ++i) part(level, k * nodes + i, centres);
+    }
+  });
   parallel_for(order_.size(), [&](std::size_t slot) { order_[slot] = centres[slot].box; });
   nodes_ = node_boxes(boxes);
 }
 
-/// Parts the slots of each node of a level at the median along the longest side of the centres'
-/// box.
-void BoxTree::sort_level(int level, std::vector<Centre>& all) const {
-  parallel_for(
-      std::size_t{1} << level,
-      [&](std::size_t k) {
-        const auto [begin, end] = range(level, k);
-        Box centres;
-        for (std::size_t slot = begin; slot < end; ++slot) centres.add(all[slot].twice);
-        const Vec3 side = centres.high - centres.low;
-        const auto part = [&](double Vec3::*axis) {
-          const auto at = [&](std::size_t slot) { return all.begin() + std::ptrdiff_t(slot); };
-          const auto [low, high] = range(level, k);
-          std::nth_element(at(low), at(range(level + 1, 2 * k).second), at(high),
-                           [&](const Centre& a, const Centre& b) {
-                             const double x = a.twice.*axis, y = b.twice.*axis;
-                             return x < y || (x == y && a.box < b.box);
-                           });
-        };
-        if (side.x >= side.y && side.x >= side.z)
-          part(&Vec3::x);
-        else if (side.y >= side.z)
-          part(&Vec3::y);
-        else
-          part(&Vec3::z);
-      },
-      1);
+void BoxTree::part(int level, std::size_t k, std::vector<Centre>& all) const {
+  const auto [begin, end] = range(level, k);
+  Box centres;
+  for (std::size_t slot = begin; slot < end; ++slot) centres.add(all[slot].twice);
+  const Vec3 side = centres.high - centres.low;
+  const auto at = [&](std::size_t slot) { return all.begin() + std::ptrdiff_t(slot); };
+  const auto part_along = [&, low = begin, high = end](double Vec3::*axis) {
+    std::nth_element(at(low), at(range(level + 1, 2 * k).second), at(high),
+                     [&](const Centre& a, const Centre& b) {
+                       const double x = a.twice.*axis, y = b.twice.*axis;
+                       return x < y || (x == y && a.box < b.box);
+                     });
+  };
+  if (side.x >= side.y && side.x >= side.z)
+    part_along(&Vec3::x);
+  else if (side.y >= side.z)
+    part_along(&Vec3::y);
+  else
+    part_along(&Vec3::z);
 }
 
 std::vector<Box> BoxTree::node_boxes(std::span<const Box> boxes) const {

@@ -106,7 +106,8 @@ class BoxTree {
   std::pair<std::size_t, std::size_t> range(int level, std::size_t k) const {
     return {order_.size() * k >> level, order_.size() * (k + 1) >> level};
   }
-  void sort_level(int level, std::vector<Centre>& centres) const;
+  /// Parts the slots of node k of a level at the median along the longest side of the centres' box.
+  void part(int level, std::size_t k, std::vector<Centre>& centres) const;
 
   int levels_ = 0;  ///< below the root
   std::vector<Box> nodes_;
