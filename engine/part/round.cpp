@@ -42,10 +42,10 @@ bool is_asked(const TetMesh& m, std::size_t t, const CycleSettings& s) {
 }
 
 /// The tets that are asked something and those around, ascending.
-std::vector<TetId> active_tets(const TetMesh& m, const CycleSettings& settings) {
+std::vector<TetId> active_tets(const TetMesh& m, const CycleSettings& settings, int layers) {
   return with_layers(
       m, ids_where(m.tets.size(), [&](TetId t) { return is_asked(m, std::size_t(t), settings); }),
-      kLayers);
+      layers);
 }
 
 /// A part for each of the tets, kIdle for those that are not in the list.
@@ -110,7 +110,7 @@ RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
                       std::vector<std::int32_t>* part_of_tet, const PartSize& size) {
   // Memory that is not to be held beside the parts is given back; an empty list would keep it.
   if (part_of_tet) *part_of_tet = std::vector<std::int32_t>();
-  std::vector<TetId> active = active_tets(mesh, settings);
+  std::vector<TetId> active = active_tets(mesh, settings, size.layers);
   if (active.empty()) {
     if (part_of_tet) part_of_tet->assign(mesh.tets.size(), kIdle);
     return {{}, 0};

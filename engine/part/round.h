@@ -1,10 +1,11 @@
 #pragma once
 #include "cavea/mesh/tet_mesh.h"
+#include "cavea/part/region.h"
 #include "cavea/pass/cycle.h"
 
 namespace cavea {
 
-/// How large parts are.
+/// What parts are cut from, and how large they are.
 struct PartSize {
   std::int64_t tets_per_part = 0;  ///< what a part is to have; 0: what suits the mesh
   /// A mesh of fewer tets is one part: the interfaces would be most of it. Not asked where the
@@ -13,6 +14,8 @@ struct PartSize {
   /// Whether the mesh is cut into few parts, each large: what touches a vertex of the interface is
   /// not mended, and hubs of needles have hundreds of tets.
   bool few = false;
+  /// Of tets around those that are asked, which are in the parts, too.
+  int layers = kLayers;
 };
 
 /// Number of parts for a mesh of so many tets: never a function of the threads.

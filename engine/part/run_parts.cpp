@@ -15,11 +15,7 @@ CycleResult run_parts(std::vector<Part>& parts, const SurfaceModel& surface,
     if (!part.mesh.tets.empty()) results[order[i]] = run_cycle(part.mesh, surface, settings);
   });
   CycleResult sum;
-  for (const CycleResult& r : results) {
-    sum.verdicts += r.verdicts;
-    sum.changes += r.changes;
-    sum.full |= r.full;
-  }
+  for (const CycleResult& r : results) sum += r;
   return sum;
 }
 

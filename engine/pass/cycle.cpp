@@ -15,9 +15,13 @@ void set_lengths(PartState& state, int sweep) {
   state.context.limits.short_edge = s.limits.short_edge / slack;
 }
 
-}  // namespace
+void ask_below(TetMesh& mesh, double quality) {
+  for (TetId t = 0; t < TetId(mesh.tets.size()); ++t)
+    if (mesh.tet_alive(t) && mesh.qualities[t] < quality) mesh.tet_flags[t] |= tet_flag::kAskAll;
+}
 
-CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings) {
+CycleResult run_one(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings) {
+  if (settings.ask_below > 0) ask_below(mesh, settings.ask_below);
   for (std::uint8_t& flags : mesh.tet_flags) flags &= std::uint8_t(~tet_flag::kBlocked);
   PartState state(mesh, surface, settings);
   for (int sweep = 0; sweep < settings.sweeps; ++sweep) {
@@ -35,6 +39,21 @@ CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
     if ((settled && state.last_resorts) || state.result.full) break;
   }
   return state.result;
+}
+
+}  // namespace
+
+CycleResult& CycleResult::operator+=(const CycleResult& other) {
+  verdicts += other.verdicts;
+  changes += other.changes;
+  full |= other.full;
+  return *this;
+}
+
+CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings) {
+  CycleResult result = run_one(mesh, surface, settings);
+  if (settings.next && !result.full) result += run_cycle(mesh, surface, *settings.next);
+  return result;
 }
 
 }  // namespace cavea

@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <memory>
 
 #include "cavea/cavity/mesh_editor.h"
 #include "cavea/operator/context.h"
@@ -38,6 +39,10 @@ struct CycleSettings {
   double repair_below = 0;
   /// Tets worse than this are also offered a reconnection of the cavity around them.
   double reconnect_below = 0;
+  /// Tets worse than this are asked everything again first.
+  double ask_below = 0;
+  /// Of a cycle that follows at once; null: none.
+  std::shared_ptr<const CycleSettings> next;
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -45,12 +50,14 @@ struct CycleResult {
   VerdictTable verdicts;
   std::int64_t changes = 0;  ///< accepted operations
   bool full = false;         ///< stopped splitting at most_tets
+
+  CycleResult& operator+=(const CycleResult& other);
 };
 
 /// Runs sweeps of split, collapse, swap and relocation (paper, section 4.3) on one mesh until
 /// nothing is left to do or `sweeps` are done. Serial and a function of the mesh and the settings
-/// alone. Only tets flagged kAsk... are asked; the flags that remain say what is still open. \throw
-/// Cancelled
+/// alone. Only tets flagged kAsk... are asked; the flags that remain say what is still open. The
+/// result is the sum over all cycles that follow. \throw Cancelled
 CycleResult run_cycle(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings);
 
 }  // namespace cavea

@@ -1,5 +1,6 @@
 #include "cavea/remesh/recipe.h"
 
+#include <memory>
 #include <utility>
 
 #include "cavea/geometry/metric.h"
@@ -81,6 +82,8 @@ Phase polish(const ResolvedOptions& o) {
   p.cycle.repair_below = 0.45;
   p.cycle.reconnect_below = p.ask_below = 0.5;
   p.resize = false;
+  // Few are asked, all over the mesh: with a second layer they would take all of it to the parts.
+  p.layers = 1;
   return p;
 }
 
@@ -92,6 +95,11 @@ void leave_good(Phase& adapt, Phase& finish) {
   adapt.cycle.swap_ceiling = 0.7;
   adapt.cycle.move_ceiling = 0.75;
   finish.cycle.swap_ceiling = finish.cycle.move_ceiling = 0.5;
+  // At once, without other parts for it: what interfaces hold back is left to the rounds that
+  // follow.
+  CycleSettings next = finish.cycle;
+  next.ask_below = finish.ask_below;
+  adapt.cycle.next = std::make_shared<const CycleSettings>(std::move(next));
 }
 
 }  // namespace
@@ -127,6 +135,7 @@ std::vector<Phase> mending_recipe(const ResolvedOptions& o) {
   adapt.cycle.shake_below = 0;
   finish.rounds = 1;
   finish.ask_below = 0;  // what was not asked is as good as it gets
+  finish.layers = kLayers;
   // What is asked is little of the whole, and is to be mended to the end.
   for (Phase* p : {&adapt, &finish}) p->settled = p->cycle.settled = 0;
   return {adapt, finish};

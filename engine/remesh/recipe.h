@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "cavea/part/region.h"
 #include "cavea/pass/cycle.h"
 #include "cavea/remesh/resolved.h"
 
@@ -21,7 +22,8 @@ struct Phase {
   double ask_below = 0;
   /// A mesh of fewer tets is one part; 0: as run_round() has it.
   std::int64_t one_part = 0;
-  bool resize = true;  ///< sets the wanted sizes anew before each round
+  int layers = kLayers;  ///< of tets around those that are asked
+  bool resize = true;    ///< sets the wanted sizes anew before each round
   /// More rounds than `rounds` while the number of tets is not the budget's; after each round it
   /// tells what sizes come to.
   int budget_rounds = 0;

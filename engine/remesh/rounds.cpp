@@ -1,6 +1,8 @@
 #include "cavea/remesh/rounds.h"
 
 #include <algorithm>
+#include <atomic>
+#include <memory>
 
 #include "cavea/base/ids_where.h"
 #include "cavea/part/round.h"
@@ -10,10 +12,16 @@
 namespace cavea {
 namespace {
 
-CycleSettings settings_of(const Job& job, const Phase& phase) {
-  CycleSettings settings = phase.cycle;
-  settings.cancel = job.options.cancel;
+/// The same for cycles that follow.
+CycleSettings with_cancel(CycleSettings settings, const std::atomic<bool>* cancel) {
+  settings.cancel = cancel;
+  if (settings.next)
+    settings.next = std::make_shared<const CycleSettings>(with_cancel(*settings.next, cancel));
   return settings;
+}
+
+CycleSettings settings_of(const Job& job, const Phase& phase) {
+  return with_cancel(phase.cycle, job.options.cancel);
 }
 
 /// Whether needles are more of the mesh than interfaces may hold back: poor ones that stay between
@@ -29,6 +37,7 @@ bool is_full_of_needles(const TetMesh& mesh) {
 PartSize part_size(const Job& job, const Phase& phase) {
   PartSize size{job.options.tets_per_part};
   if (phase.one_part > 0) size.one_part = phase.one_part;
+  size.layers = phase.layers;
   size.few = size.tets_per_part == 0 && is_full_of_needles(job.mesh);
   return size;
 }
