@@ -44,7 +44,7 @@ std::vector<std::size_t> bound_vertices(const TetMesh& mesh) {
 }
 
 TEST(Evening, MakesMoreLengthsConformAndLeavesTetsSound) {
-  TetMesh mesh = seeded(graded);
+  TetMesh mesh = seeded(graded, 12);
   const TetMesh before = mesh;
   even_out(mesh, nullptr);
   expect_sound(mesh);
