@@ -10,6 +10,7 @@
 #include "cavea/geometry/centroid.h"
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/attempt.h"
+#include "cavea/remesh/detour.h"
 #include "cavea/remesh/obstacle.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/repair.h"
@@ -73,8 +74,7 @@ class Refinement {
   /// The last tets one by one, each with several other sizes, but where angles of the domain are
   /// the reason.
   void refine_singly() {
-    int left = std::clamp(int(kTetsOfTrials / double(job_.mesh.tets.size())),
-                          job_.r.uniform() ? kFewestOfUniform : kFewestTrials, kMostTrials);
+    int left = trials_one_by_one();
     for (const double share : kOtherSizes) {
       failed_.clear();
       for (; left > 0; --left) {
@@ -87,7 +87,57 @@ class Refinement {
     }
   }
 
+  /// The same tets: an operation beside each that leads to fewer of them.
+  void detour_singly() {
+    failed_.clear();
+    for (int left = trials_one_by_one(); left > 0; --left) {
+      const std::vector<TetId> bad = tets_below(job_.mesh, aim_.quality);
+      const std::optional<TetId> t = first_blameless(bad);
+      if (!t) return;
+      const Vec3 center = centroid(job_.mesh.corners(*t));
+      if (!detour_at(*t, bad.size())) failed_.push_back({center, 0});
+    }
+  }
+
  private:
+  int trials_one_by_one() const {
+    return std::clamp(int(kTetsOfTrials / double(job_.mesh.tets.size())),
+                      job_.r.uniform() ? kFewestOfUniform : kFewestTrials, kMostTrials);
+  }
+
+  /// The worst tet where no detour was in vain and the angles of the domain are not to blame; none
+  /// if the bad ones are too many.
+  std::optional<TetId> first_blameless(const std::vector<TetId>& bad) const {
+    if (bad.size() > kMostPlaces) return {};
+    OperatorContext context(job_.mesh, job_.surface.working_model());
+    for (const TetId t : bad) {
+      const Vec3 center = centroid(job_.mesh.corners(t));
+      const bool failed =
+          std::ranges::any_of(failed_, [&](const FailedPlace& f) { return f.contains(center); });
+      if (!failed && !is_too_sharp(context, t)) return t;
+    }
+    return {};
+  }
+
+  /// False if there is none, or it was taken back.
+  bool detour_at(TetId t, std::size_t bad) {
+    Detour detour(job_, t, aim_.quality);
+    if (!detour.leads_on()) return false;
+    job_.input.keep(job_.mesh);
+    const Standard standard = standard_of(job_.mesh, distance_);
+    Before before(job_);
+    const SurfaceDistance distance_before = distance_;
+    std::move(detour).take();
+    run_residual_of(job_, last_phase(job_.r));
+    distance_ = measure_();
+    if (tets_below(job_.mesh, aim_.quality).size() < bad &&
+        standard.is_met(job_.mesh, distance_, find_crossings(job_.mesh)))
+      return true;
+    std::move(before).give_back(job_);
+    distance_ = distance_before;
+    return false;
+  }
+
   /// \return whether fewer tets are below the quality
   bool refine_once() {
     const std::vector<TetId> bad = tets_below(job_.mesh, aim_.quality);
@@ -224,6 +274,7 @@ void refine_narrow_places(Job& job, SurfaceDistance& distance,
   Refinement narrow(job, {kSoundQuality, steep, kTrials}, distance, measure);
   narrow.refine();
   narrow.refine_singly();
+  if (!freeze.any_operator()) job.steps.timed("detours", [&] { narrow.detour_singly(); });
   if (job.r.uniform()) {
     // Worth the lengths that do not conform only if it is the end of it.
     if (slow < steep && !unsound_tets(job.mesh).empty())

@@ -160,6 +160,15 @@ std::vector<Phase> poor_recipe(const ResolvedOptions& o) {
   return phases;
 }
 
+CycleSettings detour_cycle(const ResolvedOptions& o) {
+  CycleSettings first = rough(o).cycle, last = polish(o).cycle;
+  first.repair_below = 0.2;
+  last.limits.long_edge = kRoughLong, last.limits.short_edge = kRoughShort;
+  first.settled = last.settled = 0;
+  first.next = std::make_shared<const CycleSettings>(last);
+  return first;
+}
+
 std::vector<Phase> holding_good(std::vector<Phase> phases) {
   // With less, mended tets stay below 0.5, which moves around them would cure.
   constexpr double kGood = 0.6;

@@ -57,6 +57,10 @@ std::vector<Phase> standing_recipe(const ResolvedOptions& options);
 /// The same for poor tets that the limits of those phases hold fast: rough ones come first.
 std::vector<Phase> poor_recipe(const ResolvedOptions& options);
 
+/// Cycles that mend what one operation out of the way has left: rough ones, then polish, with the
+/// lengths of rough, lest it is undone.
+CycleSettings detour_cycle(const ResolvedOptions& options);
+
 /// The same phases, but vertices of good tets stay: moving them spreads from ball to ball around
 /// what is mended, which a mesh that stands has no need of.
 std::vector<Phase> holding_good(std::vector<Phase> phases);
