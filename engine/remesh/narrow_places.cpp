@@ -89,6 +89,7 @@ class Refinement {
 
   /// The same tets: an operation beside each that leads to fewer of them.
   void detour_singly() {
+    if (job_.r.freeze.any_operator()) return;
     failed_.clear();
     for (int left = trials_one_by_one(); left > 0; --left) {
       const std::vector<TetId> bad = tets_below(job_.mesh, aim_.quality);
@@ -272,9 +273,10 @@ void refine_narrow_places(Job& job, SurfaceDistance& distance,
   if (job.keeping.stands || freeze.insert || freeze.surface || job.sizes.budget().binds()) return;
   const double steep = steepest_growth(job.r), slow = job.r.hgrad;
   Refinement narrow(job, {kSoundQuality, steep, kTrials}, distance, measure);
+  narrow.detour_singly();
   narrow.refine();
   narrow.refine_singly();
-  if (!freeze.any_operator()) job.steps.timed("detours", [&] { narrow.detour_singly(); });
+  narrow.detour_singly();
   if (job.r.uniform()) {
     // Worth the lengths that do not conform only if it is the end of it.
     if (slow < steep && !unsound_tets(job.mesh).empty())
