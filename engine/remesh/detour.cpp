@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "cavea/base/keep_once.h"
 #include "cavea/base/parallel.h"
 #include "cavea/cavity/mesh_editor.h"
+#include "cavea/geometry/centroid.h"
 #include "cavea/operator/edge_collapse.h"
 #include "cavea/operator/edge_split.h"
 #include "cavea/part/region.h"
@@ -23,8 +25,15 @@ namespace {
 /// Of tets around the poor one that mending may change.
 constexpr int kReach = 5;
 
+/// Balls of needles reach far, and have hundreds of edges: there each way out would take long, and
+/// none leads on. Around sound tets there are some 2,000 tets, and 50 edges.
+constexpr std::size_t kMostTets = 20'000, kMostEdges = 100;
+
 /// What the operation may leave to be mended.
 constexpr double kLeastLeft = 0.03;
+
+/// Steps that are tried before it is asked whether one of them leaves nothing poor.
+constexpr std::size_t kTogether = 24;
 
 struct Step {
   VertexId from, to;  ///< of the edge: from vanishes, unless it is split
@@ -61,14 +70,20 @@ std::vector<std::pair<VertexId, VertexId>> edges_at(const TetMesh& mesh, TetId t
       for (const VertexId w : mesh.tets[n])
         if (w != v) edges.emplace_back(std::min(v, w), std::max(v, w));
   }
-  std::ranges::sort(edges);
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  keep_once(edges);
   return edges;
 }
 
+/// Nearest edges first; none if they are too many.
 std::vector<Step> steps_at(const TetMesh& mesh, TetId t) {
+  auto edges = edges_at(mesh, t);
+  if (edges.size() > kMostEdges) return {};
+  const Vec3 center = centroid(mesh.corners(t));
+  std::ranges::stable_sort(edges, {}, [&](const auto& e) {
+    return distance2((mesh.points[e.first] + mesh.points[e.second]) / 2, center);
+  });
   std::vector<Step> steps;
-  for (const auto& [a, b] : edges_at(mesh, t)) {
+  for (const auto& [a, b] : edges) {
     steps.push_back({a, b, true});
     steps.push_back({a, b, false});
     steps.push_back({b, a, false});
@@ -116,20 +131,27 @@ std::vector<Part> part_around(const TetMesh& mesh, TetId t) {
 Detour::Detour(Job& job, TetId t, double quality) : job_(job), part_(part_around(job.mesh, t)) {
   TetMesh& mesh = part_[0].mesh;
   const auto local = TetId(std::ranges::lower_bound(part_[0].tets, t) - part_[0].tets.begin());
+  if (mesh.tets.size() > kMostTets) return;
   ask_nothing(mesh);
   ask_below(mesh, kPoorQuality);
   const CycleSettings mending = detour_cycle(job.r);
   const SurfaceModel& surface = job.surface.working_model();
   const std::vector<Step> steps = steps_at(mesh, local);
+  std::optional<std::size_t> best;
+  Poverty least = poverty_of(mesh, quality);
+  least.lacking = 0;  // as many poor tets as before are not worth it
   std::vector<Poverty> poverties(steps.size());
-  parallel_tasks(steps.size(), [&](std::size_t i) {
-    throw_if_cancelled(job.options.cancel);
-    if (const auto result = after_step(mesh, steps[i], surface, mending))
-      poverties[i] = poverty_of(*result, quality);
-  });
-  const auto least = std::min_element(poverties.begin(), poverties.end());
-  if (least == poverties.end() || least->tets >= poverty_of(mesh, quality).tets) return;
-  best_ = after_step(mesh, steps[std::size_t(least - poverties.begin())], surface, mending);
+  for (std::size_t begin = 0; begin < steps.size() && least.tets > 0; begin += kTogether) {
+    const std::size_t end = std::min(steps.size(), begin + kTogether);
+    parallel_tasks(end - begin, [&](std::size_t i) {
+      throw_if_cancelled(job.options.cancel);
+      if (const auto result = after_step(mesh, steps[begin + i], surface, mending))
+        poverties[begin + i] = poverty_of(*result, quality);
+    });
+    for (std::size_t i = begin; i < end; ++i)
+      if (poverties[i] < least) least = poverties[i], best = i;
+  }
+  if (best) best_ = after_step(mesh, steps[*best], surface, mending);
 }
 
 void Detour::take() && {

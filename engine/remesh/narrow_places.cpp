@@ -37,13 +37,16 @@ constexpr int kHalvings = 3;
 constexpr double kAround = 2;
 
 /// The last tets are often such by chance: between walls of 14 degrees those at the edge are good
-/// only if both walls have as many vertices along it. Other sizes make another mesh there.
+/// only if both walls have as many vertices along it. Where detours do not help, other sizes make
+/// another mesh there.
 constexpr double kOtherSizes[] = {0.8, 0.65, 0.9, 0.72};
 /// So many trials are made, for so many tets all together, lest they take longer than the run; more
 /// places than that are not chance.
 constexpr int kMostTrials = 40, kFewestTrials = 6;
 /// In a large mesh each takes a tenth of the run, and a uniform size is kept if there is a choice.
 constexpr int kFewestOfUniform = 2;
+/// A detour takes 10 to 40 ms, and leaves sizes as they are.
+constexpr int kFewestDetours = 12;
 constexpr double kTetsOfTrials = 1e6;
 constexpr std::size_t kMostPlaces = 30;
 
@@ -74,26 +77,30 @@ class Refinement {
   /// The last tets one by one, each with several other sizes, but where angles of the domain are
   /// the reason.
   void refine_singly() {
-    int left = trials_one_by_one();
+    int left = trials_one_by_one(job_.r.uniform() ? kFewestOfUniform : kFewestTrials);
     for (const double share : kOtherSizes) {
       failed_.clear();
       for (; left > 0; --left) {
         const std::vector<TetId> bad = tets_below(job_.mesh, aim_.quality);
-        const std::optional<SizeSphere> spot = first_blameless_spot(bad, share);
-        if (!spot) break;
-        if (!refine_at({*spot}, bad, standard_of(job_.mesh, distance_)))
-          failed_.push_back({spot->center, spot->radius});
+        const auto t =
+            first_blameless(bad, [&](TetId n) { return hopeful_spot(n, share).has_value(); });
+        if (!t) break;
+        const SizeSphere spot = *hopeful_spot(*t, share);
+        if (!refine_at({spot}, bad, standard_of(job_.mesh, distance_)))
+          failed_.push_back({spot.center, spot.radius});
       }
     }
   }
 
-  /// The same tets: an operation beside each that leads to fewer of them.
-  void detour_singly() {
+  /// The last tets one by one: an operation beside each that makes it worse first, but then leads
+  /// to fewer of them.
+  void detour() {
     if (job_.r.freeze.any_operator()) return;
     failed_.clear();
-    for (int left = trials_one_by_one(); left > 0; --left) {
+    for (int left = trials_one_by_one(kFewestDetours); left > 0; --left) {
       const std::vector<TetId> bad = tets_below(job_.mesh, aim_.quality);
-      const std::optional<TetId> t = first_blameless(bad);
+      const auto t = first_blameless(
+          bad, [&](TetId n) { return !has_failed(centroid(job_.mesh.corners(n))); });
       if (!t) return;
       const Vec3 center = centroid(job_.mesh.corners(*t));
       if (!detour_at(*t, bad.size())) failed_.push_back({center, 0});
@@ -101,34 +108,36 @@ class Refinement {
   }
 
  private:
-  int trials_one_by_one() const {
-    return std::clamp(int(kTetsOfTrials / double(job_.mesh.tets.size())),
-                      job_.r.uniform() ? kFewestOfUniform : kFewestTrials, kMostTrials);
+  int trials_one_by_one(int fewest) const {
+    return std::clamp(int(kTetsOfTrials / double(job_.mesh.tets.size())), fewest, kMostTrials);
   }
 
-  /// The worst tet where no detour was in vain and the angles of the domain are not to blame; none
-  /// if the bad ones are too many.
-  std::optional<TetId> first_blameless(const std::vector<TetId>& bad) const {
+  /// The worst tet that is hopeful and for which the angles of the domain are not to blame; none if
+  /// the bad ones are too many.
+  template <class IsHopeful>
+  std::optional<TetId> first_blameless(const std::vector<TetId>& bad,
+                                       IsHopeful&& is_hopeful) const {
     if (bad.size() > kMostPlaces) return {};
     OperatorContext context(job_.mesh, job_.surface.working_model());
-    for (const TetId t : bad) {
-      const Vec3 center = centroid(job_.mesh.corners(t));
-      const bool failed =
-          std::ranges::any_of(failed_, [&](const FailedPlace& f) { return f.contains(center); });
-      if (!failed && !is_too_sharp(context, t)) return t;
-    }
+    for (const TetId t : bad)
+      if (is_hopeful(t) && !is_too_sharp(context, t)) return t;
     return {};
+  }
+
+  bool has_failed(const Vec3& place) const {
+    return std::ranges::any_of(failed_, [&](const FailedPlace& f) { return f.contains(place); });
   }
 
   /// False if there is none, or it was taken back.
   bool detour_at(TetId t, std::size_t bad) {
-    Detour detour(job_, t, aim_.quality);
-    if (!detour.leads_on()) return false;
+    std::optional<Detour> detour;
+    job_.steps.timed("detours", [&] { detour.emplace(job_, t, aim_.quality); });
+    if (!detour->leads_on()) return false;
     job_.input.keep(job_.mesh);
     const Standard standard = standard_of(job_.mesh, distance_);
     Before before(job_);
     const SurfaceDistance distance_before = distance_;
-    std::move(detour).take();
+    std::move(*detour).take();
     run_residual_of(job_, last_phase(job_.r));
     distance_ = measure_();
     if (tets_below(job_.mesh, aim_.quality).size() < bad &&
@@ -162,25 +171,12 @@ class Refinement {
     return spots;
   }
 
-  /// Around the worst tet for which the angles of the domain are not to blame; none if the bad ones
-  /// are too many.
-  std::optional<SizeSphere> first_blameless_spot(const std::vector<TetId>& bad,
-                                                 double share) const {
-    if (bad.size() > kMostPlaces) return {};
-    OperatorContext context(job_.mesh, job_.surface.working_model());
-    for (const TetId t : bad)
-      if (const auto spot = hopeful_spot(t, share); spot && !is_too_sharp(context, t)) return spot;
-    return {};
-  }
-
   /// Around a bad tet, with so much of the sizes that are there; none where that has failed or
   /// these are as small as they may be.
   std::optional<SizeSphere> hopeful_spot(TetId t, double share) const {
     const TetMesh& mesh = job_.mesh;
     SizeSphere spot = spot_over(mesh, centroid(mesh.corners(t)), mesh.tets[t]);
-    const bool failed =
-        std::ranges::any_of(failed_, [&](const FailedPlace& f) { return f.contains(spot.center); });
-    if (failed || spot.size <= job_.r.finest) return {};
+    if (has_failed(spot.center) || spot.size <= job_.r.finest) return {};
     spot.size = std::max(job_.r.finest, share * spot.size);
     return spot;
   }
@@ -273,10 +269,10 @@ void refine_narrow_places(Job& job, SurfaceDistance& distance,
   if (job.keeping.stands || freeze.insert || freeze.surface || job.sizes.budget().binds()) return;
   const double steep = steepest_growth(job.r), slow = job.r.hgrad;
   Refinement narrow(job, {kSoundQuality, steep, kTrials}, distance, measure);
-  narrow.detour_singly();
+  narrow.detour();
   narrow.refine();
   narrow.refine_singly();
-  narrow.detour_singly();
+  narrow.detour();
   if (job.r.uniform()) {
     // Worth the lengths that do not conform only if it is the end of it.
     if (slow < steep && !unsound_tets(job.mesh).empty())
