@@ -15,11 +15,6 @@ void set_lengths(PartState& state, int sweep) {
   state.context.limits.short_edge = s.limits.short_edge / slack;
 }
 
-void ask_below(TetMesh& mesh, double quality) {
-  for (TetId t = 0; t < TetId(mesh.tets.size()); ++t)
-    if (mesh.tet_alive(t) && mesh.qualities[t] < quality) mesh.tet_flags[t] |= tet_flag::kAskAll;
-}
-
 CycleResult run_one(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings) {
   if (settings.ask_below > 0) ask_below(mesh, settings.ask_below);
   for (std::uint8_t& flags : mesh.tet_flags) flags &= std::uint8_t(~tet_flag::kBlocked);
@@ -42,6 +37,11 @@ CycleResult run_one(TetMesh& mesh, const SurfaceModel& surface, const CycleSetti
 }
 
 }  // namespace
+
+void ask_below(TetMesh& mesh, double quality) {
+  for (TetId t = 0; t < TetId(mesh.tets.size()); ++t)
+    if (mesh.tet_alive(t) && mesh.qualities[t] < quality) mesh.tet_flags[t] |= tet_flag::kAskAll;
+}
 
 CycleResult& CycleResult::operator+=(const CycleResult& other) {
   verdicts += other.verdicts;

@@ -54,6 +54,9 @@ struct CycleResult {
   CycleResult& operator+=(const CycleResult& other);
 };
 
+/// Tets of a lower quality are asked everything.
+void ask_below(TetMesh& mesh, double quality);
+
 /// Runs sweeps of split, collapse, swap and relocation (paper, section 4.3) on one mesh until
 /// nothing is left to do or `sweeps` are done. Serial and a function of the mesh and the settings
 /// alone. Only tets flagged kAsk... are asked; the flags that remain say what is still open. The

@@ -10,12 +10,6 @@ void ask_all(TetMesh& mesh, std::uint8_t what) {
   for (std::uint8_t& flags : mesh.tet_flags) flags |= what;
 }
 
-void ask_below(TetMesh& mesh, double quality) {
-  parallel_for(mesh.tets.size(), [&](std::size_t t) {
-    if (mesh.qualities[t] < quality) mesh.tet_flags[t] |= tet_flag::kAskAll;
-  });
-}
-
 void ask_nothing(TetMesh& mesh) {
   parallel_for(mesh.tets.size(), [&](std::size_t t) { mesh.tet_flags[t] &= tet_flag::kRequired; });
 }

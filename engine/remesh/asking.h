@@ -10,9 +10,6 @@ namespace cavea {
 /// All tets are asked everything, or `what` of it.
 void ask_all(TetMesh& mesh, std::uint8_t what = tet_flag::kAskAll);
 
-/// Tets of a lower quality are asked everything.
-void ask_below(TetMesh& mesh, double quality);
-
 /// No tet is asked any more.
 void ask_nothing(TetMesh& mesh);
 bool is_nothing_asked(const TetMesh& mesh);

@@ -1,7 +1,6 @@
 #include "cavea/remesh/detour.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -42,7 +41,7 @@ struct Step {
 
 /// How poor a mesh is; the less the better.
 struct Poverty {
-  std::int64_t tets = std::numeric_limits<std::int64_t>::max();
+  std::int64_t tets = 0;
   double lacking = 0;  ///< of all of them together
 
   bool operator<(const Poverty& other) const {
@@ -51,7 +50,7 @@ struct Poverty {
 };
 
 Poverty poverty_of(const TetMesh& mesh, double quality) {
-  Poverty poverty{0, 0};
+  Poverty poverty;
   for (TetId t = 0; t < TetId(mesh.tets.size()); ++t) {
     if (!mesh.tet_alive(t) || mesh.qualities[t] >= quality) continue;
     ++poverty.tets;
@@ -137,21 +136,20 @@ Detour::Detour(Job& job, TetId t, double quality) : job_(job), part_(part_around
   const CycleSettings mending = detour_cycle(job.r);
   const SurfaceModel& surface = job.surface.working_model();
   const std::vector<Step> steps = steps_at(mesh, local);
-  std::optional<std::size_t> best;
   Poverty least = poverty_of(mesh, quality);
   least.lacking = 0;  // as many poor tets as before are not worth it
-  std::vector<Poverty> poverties(steps.size());
   for (std::size_t begin = 0; begin < steps.size() && least.tets > 0; begin += kTogether) {
-    const std::size_t end = std::min(steps.size(), begin + kTogether);
-    parallel_tasks(end - begin, [&](std::size_t i) {
+    std::vector<std::optional<TetMesh>> results(std::min(kTogether, steps.size() - begin));
+    parallel_tasks(results.size(), [&](std::size_t i) {
       throw_if_cancelled(job.options.cancel);
-      if (const auto result = after_step(mesh, steps[begin + i], surface, mending))
-        poverties[begin + i] = poverty_of(*result, quality);
+      results[i] = after_step(mesh, steps[begin + i], surface, mending);
     });
-    for (std::size_t i = begin; i < end; ++i)
-      if (poverties[i] < least) least = poverties[i], best = i;
+    for (std::optional<TetMesh>& result : results) {
+      if (!result) continue;
+      const Poverty left = poverty_of(*result, quality);
+      if (left < least) least = left, best_ = std::move(result);
+    }
   }
-  if (best) best_ = after_step(mesh, steps[*best], surface, mending);
 }
 
 void Detour::take() && {

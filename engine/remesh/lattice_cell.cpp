@@ -33,6 +33,7 @@ double misfit(const std::vector<double>& volumes, double cell) {
   std::array<double, kOctaves + 1> surplus{};
   double wanted = 0, off = 0;
   for (std::size_t i = 0; i < volumes.size(); ++i) {
+    if (volumes[i] == 0) continue;
     const double size = std::exp2(-(double(i) + 0.5) / kBinsPerOctave);
     const int level =
         std::clamp(int(std::floor(std::log2(cell / (kFinestCell * size)))), 0, kOctaves);

@@ -63,6 +63,29 @@ struct Aim {
   int trials;      ///< each leaves out the places where the last one was in vain
 };
 
+/// What a trial changes, as it was before.
+class Undo {
+ public:
+  Undo(Job& job, SurfaceDistance& distance)
+      : job_(job), distance_(distance), before_(kept(job)), distance_before_(distance) {}
+
+  void operator()() && {
+    std::move(before_).give_back(job_);
+    distance_ = std::move(distance_before_);
+  }
+
+ private:
+  static const Job& kept(Job& job) {
+    job.input.keep(job.mesh);
+    return job;
+  }
+
+  Job& job_;
+  SurfaceDistance& distance_;
+  Before before_;
+  SurfaceDistance distance_before_;
+};
+
 class Refinement {
  public:
   Refinement(Job& job, const Aim& aim, SurfaceDistance& distance,
@@ -133,18 +156,15 @@ class Refinement {
     std::optional<Detour> detour;
     job_.steps.timed("detours", [&] { detour.emplace(job_, t, aim_.quality); });
     if (!detour->leads_on()) return false;
-    job_.input.keep(job_.mesh);
     const Standard standard = standard_of(job_.mesh, distance_);
-    Before before(job_);
-    const SurfaceDistance distance_before = distance_;
+    Undo undo(job_, distance_);
     std::move(*detour).take();
     run_residual_of(job_, last_phase(job_.r));
     distance_ = measure_();
     if (tets_below(job_.mesh, aim_.quality).size() < bad &&
         standard.is_met(job_.mesh, distance_, find_crossings(job_.mesh)))
       return true;
-    std::move(before).give_back(job_);
-    distance_ = distance_before;
+    std::move(undo)();
     return false;
   }
 
@@ -184,10 +204,8 @@ class Refinement {
   /// False if that was in vain: then it is taken back, and its failures are known.
   bool refine_at(const std::vector<SizeSphere>& spots, const std::vector<TetId>& bad,
                  const Standard& standard) {
-    job_.input.keep(job_.mesh);
     const std::vector<Vec3> centers = centers_of(job_.mesh, bad);
-    Before before(job_);
-    const SurfaceDistance distance_before = distance_;
+    Undo undo(job_, distance_);
     job_.steps.timed("refining", [&] { lower_and_mend(spots, bad); });
     distance_ = measure_();
     const std::vector<TetId> left = tets_below(job_.mesh, aim_.quality);
@@ -195,8 +213,7 @@ class Refinement {
     if (left.size() < bad.size() && standard.is_met(job_.mesh, distance_, crossings)) return true;
     add_failures(spots, centers, centers_of(job_.mesh, left),
                  standard.failures(job_.mesh, distance_, crossings));
-    std::move(before).give_back(job_);
-    distance_ = distance_before;
+    std::move(undo)();
     return false;
   }
 
@@ -251,13 +268,10 @@ class Refinement {
 void refine_all_or_nothing(Job& job, const Aim& aim, SurfaceDistance& distance,
                            const std::function<SurfaceDistance()>& measure) {
   if (job.mesh.tets.size() > kMostCopiedTwice) return;
-  job.input.keep(job.mesh);
-  Before before(job);
-  const SurfaceDistance distance_before = distance;
+  Undo undo(job, distance);
   Refinement(job, aim, distance, measure).refine();
   if (tets_below(job.mesh, aim.quality).empty()) return;
-  std::move(before).give_back(job);
-  distance = distance_before;
+  std::move(undo)();
 }
 
 }  // namespace
