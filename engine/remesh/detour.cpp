@@ -1,12 +1,15 @@
 #include "cavea/remesh/detour.h"
 
 #include <algorithm>
+#include <atomic>
+#include <functional>
+#include <iterator>
 #include <optional>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "cavea/base/cancel.h"
-#include "cavea/base/keep_once.h"
 #include "cavea/base/parallel.h"
 #include "cavea/cavity/mesh_editor.h"
 #include "cavea/geometry/centroid.h"
@@ -34,8 +37,12 @@ constexpr double kLeastLeft = 0.03;
 /// Steps that are tried before it is asked whether one of them leaves nothing poor.
 constexpr std::size_t kTogether = 24;
 
+/// Where no step leads on, so many of the best are gone on from by another one.
+constexpr std::size_t kFirstSteps = 3;
+
 struct Step {
   VertexId from, to;  ///< of the edge: from vanishes, unless it is split
+  TetId at;           ///< with the edge
   bool split;
 };
 
@@ -59,44 +66,43 @@ Poverty poverty_of(const TetMesh& mesh, double quality) {
   return poverty;
 }
 
+struct Edge {
+  VertexId low, high;
+  TetId at;  ///< the lowest known with the edge
+};
+
 /// The edges at the vertices of a tet, each once.
-std::vector<std::pair<VertexId, VertexId>> edges_at(const TetMesh& mesh, TetId t) {
-  std::vector<std::pair<VertexId, VertexId>> edges;
+std::vector<Edge> edges_at(const TetMesh& mesh, TetId t) {
+  std::vector<Edge> edges;
   std::vector<TetId> ball;
   for (const VertexId v : mesh.tets[t]) {
     small_ball(mesh, v, ball);
     for (const TetId n : ball)
       for (const VertexId w : mesh.tets[n])
-        if (w != v) edges.emplace_back(std::min(v, w), std::max(v, w));
+        if (w != v) edges.push_back({std::min(v, w), std::max(v, w), n});
   }
-  keep_once(edges);
+  const auto ends = [](const Edge& e) { return std::tie(e.low, e.high); };
+  std::ranges::sort(edges, {}, [](const Edge& e) { return std::tie(e.low, e.high, e.at); });
+  const auto rest = std::ranges::unique(edges, {}, ends);
+  edges.erase(rest.begin(), rest.end());
   return edges;
 }
 
 /// Nearest edges first; none if they are too many.
 std::vector<Step> steps_at(const TetMesh& mesh, TetId t) {
-  auto edges = edges_at(mesh, t);
+  std::vector<Edge> edges = edges_at(mesh, t);
   if (edges.size() > kMostEdges) return {};
   const Vec3 center = centroid(mesh.corners(t));
-  std::ranges::stable_sort(edges, {}, [&](const auto& e) {
-    return distance2((mesh.points[e.first] + mesh.points[e.second]) / 2, center);
+  std::ranges::stable_sort(edges, {}, [&](const Edge& e) {
+    return distance2((mesh.points[e.low] + mesh.points[e.high]) / 2, center);
   });
   std::vector<Step> steps;
-  for (const auto& [a, b] : edges) {
-    steps.push_back({a, b, true});
-    steps.push_back({a, b, false});
-    steps.push_back({b, a, false});
+  for (const auto& [a, b, at] : edges) {
+    steps.push_back({a, b, at, true});
+    steps.push_back({a, b, at, false});
+    steps.push_back({b, a, at, false});
   }
   return steps;
-}
-
-/// Puts the shell of an edge into the context.
-void gather_edge(OperatorContext& context, VertexId from, VertexId to) {
-  const TetMesh& mesh = context.mesh;
-  std::vector<TetId> ball;
-  small_ball(mesh, from, ball);
-  const TetId t = *std::ranges::find_if(ball, [&](TetId n) { return mesh.local_index(n, to) < 4; });
-  gather_shell(mesh, t, mesh.local_index(t, from), mesh.local_index(t, to), context.shell);
 }
 
 /// The mesh after a step and mending; none if the step is not possible at all.
@@ -107,7 +113,8 @@ std::optional<TetMesh> after_step(const TetMesh& mesh, const Step& step,
     OperatorContext context(result, surface);
     context.limits = mending.limits;
     context.limits.quality_ratio = context.limits.quality_floor = kLeastLeft;
-    gather_edge(context, step.from, step.to);
+    gather_shell(result, step.at, result.local_index(step.at, step.from),
+                 result.local_index(step.at, step.to), context.shell);
     MeshEditor editor(result);
     Cavity cavity;
     const Verdict verdict = step.split ? edge_split(context, editor.next_vertex(), cavity)
@@ -118,6 +125,64 @@ std::optional<TetMesh> after_step(const TetMesh& mesh, const Step& step,
   run_cycle(result, surface, mending);
   return result;
 }
+
+/// A mesh that steps lead to.
+struct Way {
+  TetMesh mesh;
+  Poverty left;
+};
+
+/// The first ones of the least poverty.
+std::vector<Way> best_of(std::vector<Way> ways) {
+  std::ranges::stable_sort(ways, std::less<>{}, &Way::left);
+  if (ways.size() > kFirstSteps) ways.erase(ways.begin() + kFirstSteps, ways.end());
+  return ways;
+}
+
+TetId worst_of(const TetMesh& mesh) {
+  TetId worst = 0;
+  for (TetId t = 0; t < TetId(mesh.tets.size()); ++t)
+    if (mesh.tet_alive(t) && (!mesh.tet_alive(worst) || mesh.qualities[t] < mesh.qualities[worst]))
+      worst = t;
+  return worst;
+}
+
+/// Tries steps beside a tet.
+class Search {
+ public:
+  Search(const Job& job, double quality)
+      : quality_(quality),
+        surface_(job.surface.working_model()),
+        mending_(detour_cycle(job.r)),
+        cancel_(job.options.cancel) {}
+
+  /// The best ways; the last one tried if it leaves nothing poor.
+  std::vector<Way> from(const TetMesh& mesh, TetId t) const {
+    const std::vector<Step> steps = steps_at(mesh, t);
+    std::vector<Way> ways;
+    for (std::size_t begin = 0; begin < steps.size(); begin += kTogether) {
+      std::vector<std::optional<TetMesh>> results(std::min(kTogether, steps.size() - begin));
+      parallel_tasks(results.size(), [&](std::size_t i) {
+        throw_if_cancelled(cancel_);
+        results[i] = after_step(mesh, steps[begin + i], surface_, mending_);
+      });
+      for (std::optional<TetMesh>& result : results)
+        if (result) {
+          const Poverty left = poverty_of(*result, quality_);
+          ways.push_back({*std::move(result), left});
+        }
+      ways = best_of(std::move(ways));
+      if (!ways.empty() && ways[0].left.tets == 0) break;
+    }
+    return ways;
+  }
+
+ private:
+  const double quality_;
+  const SurfaceModel& surface_;
+  const CycleSettings mending_;
+  const std::atomic<bool>* cancel_;
+};
 
 std::vector<Part> part_around(const TetMesh& mesh, TetId t) {
   std::vector<std::int32_t> labels(mesh.tets.size(), kIdle);
@@ -133,23 +198,18 @@ Detour::Detour(Job& job, TetId t, double quality) : job_(job), part_(part_around
   if (mesh.tets.size() > kMostTets) return;
   ask_nothing(mesh);
   ask_below(mesh, kPoorQuality);
-  const CycleSettings mending = detour_cycle(job.r);
-  const SurfaceModel& surface = job.surface.working_model();
-  const std::vector<Step> steps = steps_at(mesh, local);
-  Poverty least = poverty_of(mesh, quality);
-  least.lacking = 0;  // as many poor tets as before are not worth it
-  for (std::size_t begin = 0; begin < steps.size() && least.tets > 0; begin += kTogether) {
-    std::vector<std::optional<TetMesh>> results(std::min(kTogether, steps.size() - begin));
-    parallel_tasks(results.size(), [&](std::size_t i) {
-      throw_if_cancelled(job.options.cancel);
-      results[i] = after_step(mesh, steps[begin + i], surface, mending);
-    });
-    for (std::optional<TetMesh>& result : results) {
-      if (!result) continue;
-      const Poverty left = poverty_of(*result, quality);
-      if (left < least) least = left, best_ = std::move(result);
-    }
+  const Search search(job, quality);
+  // As many poor tets as before are not worth it.
+  const std::int64_t before = poverty_of(mesh, quality).tets;
+  std::vector<Way> ways = search.from(mesh, local);
+  const auto leads_on = [&] { return !ways.empty() && ways[0].left.tets < before; };
+  if (!leads_on()) {
+    std::vector<Way> longer;
+    for (const Way& way : ways)
+      std::ranges::move(search.from(way.mesh, worst_of(way.mesh)), std::back_inserter(longer));
+    ways = best_of(std::move(longer));
   }
+  if (leads_on()) best_ = std::move(ways[0].mesh);
 }
 
 void Detour::take() && {
