@@ -20,7 +20,7 @@ constexpr std::size_t kFewHoles = 64;
 
 /// The same where less is asked. One asked tet costs as much as 200 that are looked at, which all
 /// threads share.
-constexpr std::size_t kFewAsked = 256;
+constexpr std::size_t kFewAsked = 512;
 
 std::size_t count_holes(const TetMesh& m) {
   return std::size_t(count_where(m.tets.size(), [&](TetId t) { return !m.tet_alive(t); }));

@@ -20,9 +20,11 @@ namespace {
 
 /// A part's working set at this size is about that of a core's L2 cache.
 constexpr std::int64_t kTetsPerPart = 64000;
-/// Parts enough to keep many cores busy with meshes that are not small.
-constexpr int kManyParts = 16;
-constexpr std::int64_t kManyPartsAbove = 100000;
+/// Parts enough to keep some cores busy with meshes that are not large: until there are so many,
+/// they are small, lest threads wait for the last. With 16, a third of the vertices of 400,000 tets
+/// are at an interface.
+constexpr int kFewParts = 8;
+constexpr std::int64_t kTetsPerSmallPart = 6250;
 
 /// The most tets of a part where parts are to be few.
 constexpr std::int64_t kTetsOfFew = 40000;
@@ -38,7 +40,7 @@ bool is_asked(const TetMesh& m, std::size_t t, const CycleSettings& s) {
   const std::uint8_t flags = m.tet_flags[t];
   return (flags & tet_flag::kAskLength) ||
          ((flags & tet_flag::kAskSwap) && m.qualities[t] < s.swap_ceiling) ||
-         ((flags & tet_flag::kAskMove) && m.qualities[t] <= s.move_ceiling);
+         ((flags & tet_flag::kAskMove) && s.move && m.qualities[t] <= s.move_ceiling);
 }
 
 /// The tets that are asked something and those around, ascending.
@@ -102,8 +104,8 @@ int part_count(std::int64_t tets, const PartSize& size) {
   if (tets < size.one_part) return 1;
   if (size.few) return even_count(tets, kTetsOfFew);
   const std::int64_t by_size = (tets + kTetsPerPart - 1) / kTetsPerPart;
-  if (tets > kManyPartsAbove) return int(std::max<std::int64_t>(by_size, kManyParts));
-  return even_count(tets, kManyPartsAbove / kManyParts);
+  return int(
+      std::max<std::int64_t>(by_size, std::min(kFewParts, even_count(tets, kTetsPerSmallPart))));
 }
 
 RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings,

@@ -22,9 +22,14 @@ constexpr double kFewPoints = 4096;
 
 /// Edge of a block and what it may reach beyond, in cells. Blocks of one colour are a block apart,
 /// so that reaches are disjoint; a cavity between points of the coarser level reaches 2.3 cells.
-constexpr double kBlock = 8;
-constexpr double kReach = 3.9;
+struct BlockShape {
+  double edge, reach;
+};
+constexpr BlockShape kWide{8, 3.9}, kNarrow{5, 2.45};
 constexpr int kColors = 8;
+
+/// Fewer seeds make so few wide blocks, of up to 900, that threads would wait for each other.
+constexpr std::size_t kFewSeeds = 15000;
 
 /// A block may hold many seeds where all are inserted by one thread: a few milliseconds' work.
 constexpr std::size_t kSeedsBetweenChecks = 256;
@@ -60,7 +65,8 @@ class SeedLevel {
 
   VerdictTable run() {
     find_seeds();
-    for (const double shift : {0.0, 0.5}) insert_in_blocks(shift);
+    const BlockShape shape = seeds_.size() < kFewSeeds ? kNarrow : kWide;
+    for (const double shift : {0.0, 0.5}) insert_in_blocks(shape, shift);
     insert_at_once();
     return verdicts_;
   }
@@ -126,8 +132,8 @@ class SeedLevel {
 
   /// Sorts the seeds into blocks and inserts those of each colour at the same time; what a block's
   /// reach forbids is left.
-  void insert_in_blocks(double shift) {
-    const double edge = kBlock * cell_;
+  void insert_in_blocks(const BlockShape& shape, double shift) {
+    const double edge = shape.edge * cell_;
     struct Key {
       std::int32_t color, x, y, z;
       std::uint32_t seed;
@@ -154,7 +160,7 @@ class SeedLevel {
       if (i == 0 || keys[i].block() != keys[i - 1].block()) {
         const Vec3 low = edge * (Vec3{double(keys[i].x), double(keys[i].y), double(keys[i].z)} -
                                  Vec3{shift, shift, shift});
-        const double r = kReach * cell_;
+        const double r = shape.reach * cell_;
         const Vec3 out{r, r, r}, size{edge, edge, edge};
         blocks.push_back({i, i, Box{low - out, low + size + out}, {}, {}, {}});
         ++first[std::size_t(keys[i].color) + 1];

@@ -12,20 +12,37 @@
 namespace cavea {
 namespace {
 
-/// Levels of `hmax` and below whose sizes are told apart, and how finely.
+/// Levels of the unit and below whose sizes are told apart, and how finely.
 constexpr int kOctaves = 40, kBinsPerOctave = 32;
 
-/// The volume of what wants sizes of hmax / 2^((i + 1/2) / kBinsPerOctave).
-std::vector<double> volume_by_size(const TetMesh& mesh, const SizeLaw& law) {
-  std::vector<double> volumes(kOctaves * kBinsPerOctave, 0);
+/// What volume wants which sizes.
+struct Demand {
+  /// The smallest size times a power of two, at least `hmax`: what is measured in it does not
+  /// depend on a bound that no size reaches.
+  double unit;
+  std::vector<double> volumes;  ///< of sizes of unit / 2^((i + 1/2) / kBinsPerOctave)
+};
+
+Demand demand_of(const TetMesh& mesh, const SizeLaw& law) {
+  struct Piece {
+    double volume, size;
+  };
+  std::vector<Piece> pieces;
+  double least = law.hmax;
   for_each_size_about(mesh, law, [&](double volume, double size) {
-    const double bin = std::floor(kBinsPerOctave * std::log2(law.hmax / size));
-    volumes[std::size_t(std::clamp(bin, 0.0, double(volumes.size() - 1)))] += volume;
+    pieces.push_back({volume, size});
+    least = std::min(least, size);
   });
-  return volumes;
+  Demand demand{least * std::exp2(std::ceil(std::log2(law.hmax / least))),
+                std::vector<double>(kOctaves * kBinsPerOctave, 0)};
+  for (const auto& [volume, size] : pieces) {
+    const double bin = std::floor(kBinsPerOctave * std::log2(demand.unit / size));
+    demand.volumes[std::size_t(std::clamp(bin, 0.0, double(demand.volumes.size() - 1)))] += volume;
+  }
+  return demand;
 }
 
-/// How far lattices are from fitting, the one of level 0 with cells of `cell` times hmax, in
+/// How far lattices are from fitting, the one of level 0 with cells of `cell` units, in
 /// squares of octaves of lengths: what sizes are away from those of their lattice, on the average
 /// over the points that they ask for; and the share of points that the lattices have too many or
 /// too few, summed over their zones, a third of it for lengths.
@@ -53,13 +70,17 @@ double misfit(const std::vector<double>& volumes, double cell) {
 }  // namespace
 
 double fitting_cell(const TetMesh& mesh, const SizeLaw& law) {
-  const std::vector<double> volumes = volume_by_size(mesh, law);
-  double best = kLatticeCell, least = misfit(volumes, best);
+  const Demand demand = demand_of(mesh, law);
+  const int of_hmax = int(std::lround(kBinsPerOctave * std::log2(law.hmax / demand.unit)));
+  const auto cell_at = [](int step) {
+    return kLatticeCell * std::exp2(double(step) / kBinsPerOctave);
+  };
+  double best = cell_at(of_hmax), least = misfit(demand.volumes, best);
   for (int i = -kBinsPerOctave / 2; i < kBinsPerOctave / 2; ++i) {
-    const double cell = kLatticeCell * std::exp2(double(i) / kBinsPerOctave);
-    if (const double m = misfit(volumes, cell); m < least) best = cell, least = m;
+    const double cell = cell_at(of_hmax + i);
+    if (const double m = misfit(demand.volumes, cell); m < least) best = cell, least = m;
   }
-  return best * law.hmax;
+  return best * demand.unit;
 }
 
 }  // namespace cavea

@@ -124,6 +124,9 @@ Phase thinning(const ResolvedOptions& o) {
   p.cycle.insert = p.cycle.move = false;
   p.cycle.limits.short_edge = 0.6;
   p.cycle.repair_below = 0;
+  // Its vertices are old ones, where sizes stay the same.
+  p.resize = false;
+  p.layers = 1;
   return p;
 }
 

@@ -125,7 +125,7 @@ TEST(Round, DoesNotDependOnTheNumberOfThreads) {
 TEST(PartCount, GrowsWithTheMeshAlone) {
   EXPECT_EQ(part_count(0), 1);
   EXPECT_EQ(part_count(1000), 1);
-  EXPECT_GE(part_count(200000), 16);
+  EXPECT_GE(part_count(200000), 8);
   int last = 1;
   for (std::int64_t tets = 1000; tets < 100000000; tets += tets / 7) {
     EXPECT_GE(part_count(tets), last) << tets;
