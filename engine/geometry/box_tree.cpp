@@ -1,6 +1,7 @@
 #include "cavea/geometry/box_tree.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "cavea/base/parallel.h"
 
@@ -17,10 +18,7 @@ constexpr int kCommonLevels = 6;
 BoxTree::BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {
   if (order_.empty()) return;
   while (order_.size() >> levels_ > kLeafSize) ++levels_;
-  std::vector<Centre> centres(boxes.size());
-  parallel_for(boxes.size(), [&](std::size_t i) {
-    centres[i] = {boxes[i].low + boxes[i].high, std::int32_t(i)};
-  });
+  std::vector<Centre> centres = centres_of(boxes);
   const auto for_nodes = [&](int level, auto&& work) {
     parallel_for(std::size_t{1} << level, work, 1);
   };
@@ -37,25 +35,49 @@ BoxTree::BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {
   nodes_ = node_boxes(boxes);
 }
 
+std::vector<BoxTree::Centre> BoxTree::centres_of(std::span<const Box> boxes) {
+  const auto twice = [&](std::size_t i) { return boxes[i].low + boxes[i].high; };
+  const Box all = parallel_reduce(
+      boxes.size(), Box{},
+      [&](std::size_t begin, std::size_t end) {
+        Box box;
+        for (std::size_t i = begin; i < end; ++i) box.add(twice(i));
+        return box;
+      },
+      [](Box a, const Box& b) {
+        a.add(b);
+        return a;
+      });
+  const Vec3 side = all.high - all.low;
+  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+  const double scale = kMost / std::max({side.x, side.y, side.z});
+  // What is no number goes to the low end, and all if they are at one place.
+  const auto whole = [&](double x) {
+    return x * scale > 0 ? std::uint32_t(std::min(x * scale, kMost)) : 0;
+  };
+  std::vector<Centre> centres(boxes.size());
+  parallel_for(boxes.size(), [&](std::size_t i) {
+    const Vec3 from_low = twice(i) - all.low;
+    centres[i] = {{whole(from_low.x), whole(from_low.y), whole(from_low.z)}, std::int32_t(i)};
+  });
+  return centres;
+}
+
 void BoxTree::part(int level, std::size_t k, std::vector<Centre>& all) const {
   const auto [begin, end] = range(level, k);
-  Box centres;
-  for (std::size_t slot = begin; slot < end; ++slot) centres.add(all[slot].twice);
-  const Vec3 side = centres.high - centres.low;
+  std::array<std::uint32_t, 3> low = all[begin].at, high = low;
+  for (std::size_t slot = begin; slot < end; ++slot)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], all[slot].at[axis]);
+      high[axis] = std::max(high[axis], all[slot].at[axis]);
+    }
+  std::size_t longest = 0;
+  for (std::size_t axis = 1; axis < 3; ++axis)
+    if (high[axis] - low[axis] > high[longest] - low[longest]) longest = axis;
   const auto at = [&](std::size_t slot) { return all.begin() + std::ptrdiff_t(slot); };
-  const auto part_along = [&, low = begin, high = end](double Vec3::*axis) {
-    std::nth_element(at(low), at(range(level + 1, 2 * k).second), at(high),
-                     [&](const Centre& a, const Centre& b) {
-                       const double x = a.twice.*axis, y = b.twice.*axis;
-                       return x < y || (x == y && a.box < b.box);
-                     });
-  };
-  if (side.x >= side.y && side.x >= side.z)
-    part_along(&Vec3::x);
-  else if (side.y >= side.z)
-    part_along(&Vec3::y);
-  else
-    part_along(&Vec3::z);
+  std::nth_element(
+      at(begin), at(range(level + 1, 2 * k).second), at(end),
+      [&](const Centre& a, const Centre& b) { return a.key(longest) < b.key(longest); });
 }
 
 std::vector<Box> BoxTree::node_boxes(std::span<const Box> boxes) const {

@@ -95,11 +95,19 @@ class BoxTree {
   /// Boxes are numbered by 32 bits.
   static constexpr int kMaxLevels = 32;
 
-  /// Of a box, by itself: looking it up by number for each comparison would take twice as long.
+  /// Of a box, by itself: looking it up by number for each comparison would take twice as long. Its
+  /// place is a whole number of 2^-32 of the longest side of all centres' box.
   struct Centre {
-    Vec3 twice;
+    std::array<std::uint32_t, 3> at;
     std::int32_t box;
+
+    /// Its place along an axis, then its box, as one number.
+    std::uint64_t key(std::size_t axis) const {
+      return std::uint64_t{at[axis]} << 32 | std::uint32_t(box);
+    }
   };
+
+  static std::vector<Centre> centres_of(std::span<const Box> boxes);
 
   std::size_t first_leaf() const { return (std::size_t{1} << levels_) - 1; }
   /// The slots below node k of a level.
