@@ -12,6 +12,10 @@ namespace {
 /// Operators keep this share of the tolerance, so that what lies between their sample points stays
 /// within all of it.
 constexpr double kOperatorShare = 0.8;
+/// What is left after a round is near the ideal surface already; with less to spare, half as many
+/// places are found too far off in the end, where repairs make sizes smaller. Not where facets are
+/// the truth: what lies beside their bends is then held fast.
+constexpr double kLaterShare = 0.75;
 
 /// Surface edges of at least this many hmin are split where they do not fit the surface.
 constexpr double kFittedEdge = 1.5;
@@ -42,7 +46,7 @@ CycleSettings base(const ResolvedOptions& o) {
 
 /// Lengths outside the rough bounds only, with loss of quality allowed.
 Phase rough(const ResolvedOptions& o) {
-  Phase p{"rough", base(o), 2, 0.05, 8};
+  Phase p{"rough", base(o), {}, 2, 0.05, 8};
   p.cycle.limits.long_edge = kRoughLong;
   p.cycle.limits.short_edge = kRoughShort;
   p.cycle.limits.quality_ratio = 0.3;
@@ -54,13 +58,14 @@ Phase rough(const ResolvedOptions& o) {
 }
 
 Phase fine(const ResolvedOptions& o) {
-  Phase p{"fine", base(o), 3, 0.035, 8};
+  Phase p{"fine", base(o), {}, 3, 0.035, 8};
   p.cycle.shake_below = 0.72;
   p.ask = tet_flag::kAskLength;
   p.cycle.limits.shortest_made = 0.6;
   p.cycle.limits.quality_ratio = 0.7;
   p.cycle.limits.quality_floor = 0.3;
   p.budget_rounds = 4;
+  p.later = {true, o.max_bulge > 0 ? kLaterShare : kOperatorShare};
   p.cycle.sweeps = 5;
   p.cycle.swap_ceiling = 0.75;
   p.cycle.repair_below = 0.2;
@@ -68,7 +73,7 @@ Phase fine(const ResolvedOptions& o) {
 }
 
 Phase polish(const ResolvedOptions& o) {
-  Phase p{"polish", base(o), 2, 0.005, 0};
+  Phase p{"polish", base(o), {}, 2, 0.005, 0};
   p.cycle.limits.shortest_made = kShortEdge;
   p.cycle.limits.leave_tolerated = true;
   p.cycle.limits.ears_go = true;  // earlier phases move the surface, and most ears are gone after

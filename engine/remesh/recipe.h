@@ -7,10 +7,20 @@
 
 namespace cavea {
 
+/// What limits are from the second round of a phase on, if that is stricter, in a mesh that has a
+/// mean quality of kRoomyMean by then: bodies with less room want all there is.
+struct LaterLimits {
+  /// No edge is split that a collapse would undo. In the first round that finds better vertices,
+  /// then it is the same pairs over and over.
+  bool leave_tolerated = false;
+  double tolerance_share = 1;
+};
+
 /// One phase of the recipe: rounds of the same settings until little changes.
 struct Phase {
   const char* name;
   CycleSettings cycle;
+  LaterLimits later;
   int rounds = 1;
   /// Ends before its last round when a round changes fewer than this share of the tets.
   double settled = 0.01;

@@ -4,10 +4,6 @@
 
 namespace cavea {
 
-namespace {
-constexpr double kRoomyMean = 0.78;  // all bodies that are nowhere narrow reach it
-}  // namespace
-
 bool has_room(const MeshSummary& after) {
   constexpr double kRoomyConform = 90;  // the usual target
   return after.quality.mean >= kRoomyMean && after.lengths.conforming_percent() >= kRoomyConform;

@@ -7,6 +7,9 @@ namespace cavea {
 /// Where a body has no room, sizes of this share of those wanted are the finest that are tried.
 inline constexpr double kFinestRoom = 0.41;
 
+/// All bodies that are nowhere narrow reach this mean quality.
+inline constexpr double kRoomyMean = 0.78;
+
 /// How much room the shape leaves for elements of the sizes asked for: in strips one of them wide
 /// all are of a poor quality, or few have the lengths wanted.
 enum class Room { kMissing, kLittle, kEnough };

@@ -5,9 +5,11 @@
 #include <memory>
 
 #include "cavea/base/ids_where.h"
+#include "cavea/mesh/statistics.h"
 #include "cavea/part/round.h"
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/forecast.h"
+#include "cavea/remesh/room.h"
 
 namespace cavea {
 namespace {
@@ -32,6 +34,11 @@ bool is_full_of_needles(const TetMesh& mesh) {
   const std::int64_t needles =
       count_where(mesh.tets.size(), [&](TetId t) { return mesh.qualities[t] < kNeedle; });
   return double(needles) > kMany * double(mesh.tets.size());
+}
+
+void tighten(Limits& limits, const LaterLimits& later) {
+  limits.leave_tolerated |= later.leave_tolerated;
+  limits.tolerance_share = std::min(limits.tolerance_share, later.tolerance_share);
 }
 
 PartSize part_size(const Job& job, const Phase& phase) {
@@ -76,6 +83,7 @@ void run_phase(Job& job, const Phase& phase) {
     if (phase.resize && round > 1 && job.sizes.vary())
       job.resize(), ask_all(mesh, tet_flag::kAskLength);
     if (is_all_done(job)) break;
+    if (round > 1 && mean_quality(mesh) >= kRoomyMean) tighten(settings.limits, phase.later);
     const PartSize size = part_size(job, phase);
     if (phase.growth > 0) settings.most_tets = most_tets_of_part(job, phase, size);
     const RoundResult result =
