@@ -22,7 +22,8 @@ constexpr int kKept = 64 << 20;
 Heap::Heap() {
   // By default the allocator learns from the first arrays to keep what is as large.
   mallopt(M_TRIM_THRESHOLD, kKept);
-  keep_arrays(false);
+  // A mesh that is read needs many arrays in turn, and less memory than when it is remeshed.
+  keep_arrays(true);
 }
 
 void Heap::expect(std::int64_t tets) {
