@@ -60,8 +60,9 @@ bool is_between(const MeshSummary& now, const InCurvedSizes& curved, const Optio
   // Facets that fit their surface may be long beside sizes that follow from how they bend: smaller
   // ones bend in narrower strips.
   constexpr double kCoarsest = 1.4;
-  // In hausd. That of triangles of the wanted size is 0.75; edges may be 1.4 times as long.
-  constexpr double kFittingBulge = 1.25;
+  // In hausd. That of triangles of the wanted size is 0.75; edges may be 1.4 times as long, and it
+  // grows with their square.
+  constexpr double kFittingBulge = 1.5;
   const bool fits = options.faceted || curved.bulge <= kFittingBulge;
   const bool coarse = fits ? curved.lengths.mean > kCoarsest
                            : curved.lengths.too_long_percent() > 100 - options.min_conform;
