@@ -27,9 +27,8 @@ void Before::give_back(Job& job) && {
   job.verdicts = verdicts_;
 }
 
-Standard standard_of(const TetMesh& mesh, const SurfaceDistance& distance) {
-  return {std::max(kMeasuredShare, distance.worse().worst), worst_quality(mesh),
-          find_crossings(mesh).size()};
+Standard standard_of(const TetMesh& mesh, const SurfaceDistance& distance, std::size_t crossings) {
+  return {std::max(kMeasuredShare, distance.worse().worst), worst_quality(mesh), crossings};
 }
 
 bool Standard::is_met(const TetMesh& mesh, const SurfaceDistance& distance,

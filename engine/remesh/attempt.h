@@ -48,7 +48,8 @@ struct Standard {
 };
 
 /// No worse than the mesh is, but as far from the ideal surface as results may be.
-Standard standard_of(const TetMesh& mesh, const SurfaceDistance& distance);
+/// \param crossings of its surface
+Standard standard_of(const TetMesh& mesh, const SurfaceDistance& distance, std::size_t crossings);
 
 /// Tets below a quality, the worst first.
 std::vector<TetId> tets_below(const TetMesh& mesh, double quality);

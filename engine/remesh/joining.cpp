@@ -35,7 +35,7 @@ void join_and_mend(Job& job, bool surface_frozen, const std::vector<FailedPlace>
 void try_joining(Job& job, bool surface_frozen, SurfaceDistance& distance,
                  const std::function<SurfaceDistance()>& measure) {
   constexpr int kTrials = 6;
-  const Standard standard = standard_of(job.mesh, distance);
+  const Standard standard = standard_of(job.mesh, distance, find_crossings(job.mesh).size());
   std::vector<FailedPlace> failed;
   for (int trial = 0; trial < kTrials; ++trial) {
     std::optional<Before> before;

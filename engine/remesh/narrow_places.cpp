@@ -109,8 +109,7 @@ class Refinement {
             first_blameless(bad, [&](TetId n) { return hopeful_spot(n, share).has_value(); });
         if (!t) break;
         const SizeSphere spot = *hopeful_spot(*t, share);
-        if (!refine_at({spot}, bad, standard_of(job_.mesh, distance_)))
-          failed_.push_back({spot.center, spot.radius});
+        if (!refine_at({spot}, bad)) failed_.push_back({spot.center, spot.radius});
       }
     }
   }
@@ -151,19 +150,31 @@ class Refinement {
     return std::ranges::any_of(failed_, [&](const FailedPlace& f) { return f.contains(place); });
   }
 
+  /// Of the mesh as it is.
+  Standard standard() {
+    if (!crossings_) crossings_ = find_crossings(job_.mesh).size();
+    return standard_of(job_.mesh, distance_, *crossings_);
+  }
+
+  bool accept(const std::vector<Crossing>& crossings) {
+    crossings_ = crossings.size();
+    return true;
+  }
+
   /// False if there is none, or it was taken back.
   bool detour_at(TetId t, std::size_t bad) {
     std::optional<Detour> detour;
     job_.steps.timed("detours", [&] { detour.emplace(job_, t, aim_.quality); });
     if (!detour->leads_on()) return false;
-    const Standard standard = standard_of(job_.mesh, distance_);
+    const Standard standard = this->standard();
     Undo undo(job_, distance_);
     std::move(*detour).take();
     run_residual_of(job_, last_phase(job_.r));
     distance_ = measure_();
-    if (tets_below(job_.mesh, aim_.quality).size() < bad &&
-        standard.is_met(job_.mesh, distance_, find_crossings(job_.mesh)))
-      return true;
+    if (tets_below(job_.mesh, aim_.quality).size() < bad) {
+      const std::vector<Crossing> crossings = find_crossings(job_.mesh);
+      if (standard.is_met(job_.mesh, distance_, crossings)) return accept(crossings);
+    }
     std::move(undo)();
     return false;
   }
@@ -173,9 +184,8 @@ class Refinement {
     const std::vector<TetId> bad = tets_below(job_.mesh, aim_.quality);
     std::vector<SizeSphere> spots = hopeful_spots(bad);
     if (spots.empty()) return false;
-    const Standard standard = standard_of(job_.mesh, distance_);
     for (int trial = 0; trial < aim_.trials && !spots.empty(); ++trial) {
-      if (refine_at(spots, bad, standard)) return true;
+      if (refine_at(spots, bad)) return true;
       spots = hopeful_spots(bad);
     }
     return false;
@@ -202,15 +212,16 @@ class Refinement {
   }
 
   /// False if that was in vain: then it is taken back, and its failures are known.
-  bool refine_at(const std::vector<SizeSphere>& spots, const std::vector<TetId>& bad,
-                 const Standard& standard) {
+  bool refine_at(const std::vector<SizeSphere>& spots, const std::vector<TetId>& bad) {
+    const Standard standard = this->standard();
     const std::vector<Vec3> centers = centers_of(job_.mesh, bad);
     Undo undo(job_, distance_);
     job_.steps.timed("refining", [&] { lower_and_mend(spots, bad); });
     distance_ = measure_();
     const std::vector<TetId> left = tets_below(job_.mesh, aim_.quality);
     const std::vector<Crossing> crossings = find_crossings(job_.mesh);
-    if (left.size() < bad.size() && standard.is_met(job_.mesh, distance_, crossings)) return true;
+    if (left.size() < bad.size() && standard.is_met(job_.mesh, distance_, crossings))
+      return accept(crossings);
     add_failures(spots, centers, centers_of(job_.mesh, left),
                  standard.failures(job_.mesh, distance_, crossings));
     std::move(undo)();
@@ -261,6 +272,7 @@ class Refinement {
   const Aim aim_;
   SurfaceDistance& distance_;
   const std::function<SurfaceDistance()>& measure_;
+  std::optional<std::size_t> crossings_;  ///< of the surface, once they are counted
   std::vector<FailedPlace> failed_;
 };
 
