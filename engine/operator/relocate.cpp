@@ -136,7 +136,8 @@ Vec3 along_fan(const OperatorContext& c, const Vec3& way) {
   Vec3 normal{};
   for (TriangleId id : c.fan) {
     const auto& t = c.mesh.triangles[id].v;
-    normal += cross(c.point(t[1]) - c.point(t[0]), c.point(t[2]) - c.point(t[0]));
+    const Vec3 n = cross(c.point(t[1]) - c.point(t[0]), c.point(t[2]) - c.point(t[0]));
+    normal += dot(n, normal) < 0 ? -1.0 * n : n;  // those of sheets need not be oriented alike
   }
   const double square = norm2(normal);
   return square > 0 ? way - dot(way, normal) / square * normal : way;

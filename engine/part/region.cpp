@@ -18,8 +18,8 @@ namespace {
 /// Where less than this share of the mesh is holes it is worth not to touch the rest.
 constexpr std::size_t kFewHoles = 64;
 
-/// The same where less is asked. One asked tet costs as much as 200 that are looked at, which all
-/// threads share.
+/// The same where less is asked. One asked tet costs as much as 200 that are looked at, which the
+/// threads share, two or three at least.
 constexpr std::size_t kFewAsked = 512;
 
 std::size_t count_holes(const TetMesh& m) {

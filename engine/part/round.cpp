@@ -23,7 +23,7 @@ constexpr std::int64_t kTetsPerPart = 64000;
 /// Parts enough to keep some cores busy with meshes that are not large: until there are so many,
 /// they are small, lest threads wait for the last. With 16, a third of the vertices of 400,000 tets
 /// are at an interface.
-constexpr int kFewParts = 8;
+constexpr int kLeastParts = 8;
 constexpr std::int64_t kTetsPerSmallPart = 6250;
 
 /// The most tets of a part where parts are to be few.
@@ -102,10 +102,10 @@ RoundResult run_whole(TetMesh& mesh, const SurfaceModel& surface, const CycleSet
 int part_count(std::int64_t tets, const PartSize& size) {
   if (size.tets_per_part > 0) return int((tets + size.tets_per_part - 1) / size.tets_per_part);
   if (tets < size.one_part) return 1;
-  if (size.few) return even_count(tets, kTetsOfFew);
   const std::int64_t by_size = (tets + kTetsPerPart - 1) / kTetsPerPart;
-  return int(
-      std::max<std::int64_t>(by_size, std::min(kFewParts, even_count(tets, kTetsPerSmallPart))));
+  const int usual = int(
+      std::max<std::int64_t>(by_size, std::min(kLeastParts, even_count(tets, kTetsPerSmallPart))));
+  return size.few ? std::min(even_count(tets, kTetsOfFew), usual - usual % 2) : usual;
 }
 
 RoundResult run_round(TetMesh& mesh, const SurfaceModel& surface, const CycleSettings& settings,

@@ -156,7 +156,8 @@ class Search {
         mending_(detour_cycle(job.r)),
         cancel_(job.options.cancel) {}
 
-  /// The best ways; the last one tried if it leaves nothing poor.
+  /// The best few ways, the best first. Not all are tried if some of those before leave nothing
+  /// poor.
   std::vector<Way> from(const TetMesh& mesh, TetId t) const {
     const std::vector<Step> steps = steps_at(mesh, t);
     std::vector<Way> ways;

@@ -10,8 +10,9 @@ namespace cavea {
 /// A way out of a place where no single operation gains: one edge beside a poor tet is split or
 /// collapsed whatever that makes of the tets there, and all around is mended. Of all edges at the
 /// tet's vertices that is tried on copies of what is around, and the one that leaves the fewest
-/// poor tets is taken. So two walls that meet at a small angle come to have as many vertices along
-/// their common edge, which takes a vertex more, or less, on one of them and moves of the others.
+/// poor tets is taken; if none leads on, a second step is tried after each of the best. So two
+/// walls that meet at a small angle come to have as many vertices along their common edge, which
+/// takes a vertex more, or less, on one of them and moves of the others.
 class Detour {
  public:
   /// Looks for one. \param quality that poor tets are below \pre no holes; t is not required

@@ -12,9 +12,9 @@ namespace {
 /// Operators keep this share of the tolerance, so that what lies between their sample points stays
 /// within all of it.
 constexpr double kOperatorShare = 0.8;
-/// What is left after a round is near the ideal surface already; with less to spare, half as many
-/// places are found too far off in the end, where repairs make sizes smaller. Not where facets are
-/// the truth: what lies beside their bends is then held fast.
+/// What is left after a round is near the ideal surface already; if less of the tolerance may be
+/// used from then on, half as many places are found too far off in the end, where repairs make
+/// sizes smaller. Not where facets are the truth: what lies beside their bends is then held fast.
 constexpr double kLaterShare = 0.75;
 
 /// Surface edges of at least this many hmin are split where they do not fit the surface.

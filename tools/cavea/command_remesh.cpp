@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "cavea/base/error.h"
@@ -96,6 +97,8 @@ std::vector<std::filesystem::path> write_all(const MeshData& data, RunReport& ru
 RunReport remesh_file(const RemeshArguments& arguments, Options options, const Interrupt& interrupt,
                       Heap& heap) {
   Timer timer;
+  // What a level set cuts is not only read, and may be large.
+  if (arguments.implicit) heap.expect(std::numeric_limits<std::int64_t>::max());
   Prepared prepared = prepare(arguments, options);
   LoadedMesh& loaded = prepared.loaded;
   LoadedMesh surface;

@@ -6,7 +6,8 @@ namespace cavea::program {
 /// What the allocator does with arrays that are freed. Of large meshes they go back to the system,
 /// since what is kept has holes: a fifth of the memory of a million tets. Of smaller ones they are
 /// kept for the next arrays, as pages that the system hands out have to be cleared first: 5% of a
-/// run. So they are at first, until it is known how large the mesh is. Of no effect where the allocator has no such choice.
+/// run. So they are at first, until it is known how large the mesh is. Of no effect where the
+/// allocator has no such choice.
 class Heap {
  public:
   Heap();
