@@ -65,7 +65,7 @@ Phase fine(const ResolvedOptions& o) {
   p.cycle.limits.quality_ratio = 0.7;
   p.cycle.limits.quality_floor = 0.3;
   p.budget_rounds = 4;
-  p.later = {true, o.max_bulge > 0 ? kLaterShare : kOperatorShare};
+  p.later = LaterLimits{true, o.max_bulge > 0 ? kLaterShare : kOperatorShare};
   p.cycle.sweeps = 5;
   p.cycle.swap_ceiling = 0.75;
   p.cycle.repair_below = 0.2;

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "cavea/part/region.h"
@@ -7,8 +8,8 @@
 
 namespace cavea {
 
-/// What limits are from the second round of a phase on, if that is stricter, in a mesh that has a
-/// mean quality of kRoomyMean by then: bodies with less room want all there is.
+/// Stricter limits from the second round of a phase on, in a mesh that has a mean quality of
+/// kRoomyMean by then: bodies with less room want all there is.
 struct LaterLimits {
   /// No edge is split that a collapse would undo. In the first round that finds better vertices,
   /// then it is the same pairs over and over.
@@ -20,7 +21,7 @@ struct LaterLimits {
 struct Phase {
   const char* name;
   CycleSettings cycle;
-  LaterLimits later;
+  std::optional<LaterLimits> later;
   int rounds = 1;
   /// Ends before its last round when a round changes fewer than this share of the tets.
   double settled = 0.01;

@@ -83,7 +83,8 @@ void run_phase(Job& job, const Phase& phase) {
     if (phase.resize && round > 1 && job.sizes.vary())
       job.resize(), ask_all(mesh, tet_flag::kAskLength);
     if (is_all_done(job)) break;
-    if (round > 1 && mean_quality(mesh) >= kRoomyMean) tighten(settings.limits, phase.later);
+    if (round > 1 && phase.later && mean_quality(mesh) >= kRoomyMean)
+      tighten(settings.limits, *phase.later);
     const PartSize size = part_size(job, phase);
     if (phase.growth > 0) settings.most_tets = most_tets_of_part(job, phase, size);
     const RoundResult result =
