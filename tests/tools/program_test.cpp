@@ -117,7 +117,8 @@ TEST_F(RunTest, TakesALevelSetOfAMeshWithUnusedVertices) {
   const Outcome outcome =
       cavea({"implicit", "in.mesh", "--sol", "phi.sol", "-o", "out.meshb", "--report", "r.json"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  for (const Json& ref : read_json("r.json")["after"]["counts"]["tet_references"])
+  const Json report = read_json("r.json");
+  for (const Json& ref : report["after"]["counts"]["tet_references"])
     EXPECT_NEAR(ref["volume"].get<double>(), ref["reference"] == 3 ? 0.3 : 0.7, 1e-6);
 }
 
