@@ -92,9 +92,12 @@ SurfaceDistance IdealSurface::distance_of(const TetMesh& mesh) {
   // A triangle that is so near at seven samples is not beyond the tolerance at others: bumps of
   // the model below it are sampled from their own side.
   constexpr double kNear = 0.5;
-  if (!meter_)
-    meter_.emplace(*model_,
-                   DistanceSampling{default_sample_step(mesh, *model_), kMeasuredShare, kNear});
+  // What is known of a mesh whose triangles were far larger may miss what is between samples.
+  constexpr double kFarFiner = 0.8;
+  const SampleSteps steps = default_sample_steps(mesh, *model_);
+  if (!meter_ || steps.out < kFarFiner * meter_->steps().out ||
+      steps.model < kFarFiner * meter_->steps().model)
+    meter_.emplace(*model_, DistanceSampling{steps, kMeasuredShare, kNear});
   return meter_->measure(mesh);
 }
 

@@ -1,8 +1,11 @@
 #include "cavea/remesh/repair.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "cavea/remesh/asking.h"
@@ -30,20 +33,57 @@ SizeSphere spot_around(const FarSample& f, const TetMesh& mesh, const ResolvedOp
   return spot;
 }
 
+/// Triangles that stay as they are, whatever size is asked for there: all around would be refined,
+/// repair by repair, and nothing mended.
+class Stuck {
+ public:
+  /// Those at far samples are asked once more.
+  void ask(const SurfaceDistance& distance, const TetMesh& mesh) {
+    std::map<Place, int> before = std::exchange(asked_, {});
+    for (const auto* far : {&distance.far_facets, &distance.far_triangles})
+      for (const FarSample& f : *far)
+        if (f.triangle != kNone) {
+          const Place place = place_of(f, mesh);
+          asked_[place] = before[place] + 1;
+        }
+  }
+  bool holds(const FarSample& f, const TetMesh& mesh) const {
+    // Sizes are to a third by then: an edge of 0.7 sizes would be split.
+    constexpr int kMostAsked = 4;
+    const auto at = asked_.find(place_of(f, mesh));
+    return at != asked_.end() && at->second > kMostAsked;
+  }
+
+ private:
+  /// Corners: ids are given anew.
+  using Place = std::array<std::array<double, 3>, 3>;
+  static Place place_of(const FarSample& f, const TetMesh& mesh) {
+    Place place;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& p = mesh.points[mesh.triangles[std::size_t(f.triangle)].v[k]];
+      place[k] = {p.x, p.y, p.z};
+    }
+    std::ranges::sort(place);
+    return place;
+  }
+  std::map<Place, int> asked_;
+};
+
 std::vector<SizeSphere> spots_of(const SurfaceDistance& distance, const TetMesh& mesh,
-                                 const ResolvedOptions& r) {
+                                 const ResolvedOptions& r, const Stuck& stuck) {
   std::vector<SizeSphere> spots;
   for (const auto* far : {&distance.far_facets, &distance.far_triangles})
     for (const FarSample& f : *far)
-      if (f.triangle != kNone) spots.push_back(spot_around(f, mesh, r));
+      if (f.triangle != kNone && !stuck.holds(f, mesh)) spots.push_back(spot_around(f, mesh, r));
   return spots;
 }
 
 /// \return false if sizes there are as small as they may get, and nothing was asked
-bool repair(Job& job, const SurfaceDistance& distance) {
+bool repair(Job& job, const SurfaceDistance& distance, Stuck& stuck) {
+  stuck.ask(distance, job.mesh);
   job.input.keep(job.mesh);
   const std::vector<float> sizes_before =
-      job.sizes.lower(job.mesh, job.surface.model(), spots_of(distance, job.mesh, job.r),
+      job.sizes.lower(job.mesh, job.surface.model(), spots_of(distance, job.mesh, job.r, stuck),
                       job.r.finest, steepest_growth(job.r));
   ask_nothing(job.mesh);
   ask_changed_lengths(job.mesh, sizes_before);
@@ -103,11 +143,12 @@ double steepest_growth(const ResolvedOptions& r) {
 SurfaceDistance measure_and_repair(Job& job) {
   SurfaceDistance distance = finish_and_measure(job);
   int repairs = 0;
+  Stuck stuck;
   const auto repair_all = [&] {
     for (; repairs < kMostRepairs && may_repair(job, distance) && is_far(job, distance, repairs);
          ++repairs) {
       bool is_tried = false;
-      job.steps.timed("repair", [&] { is_tried = repair(job, distance); });
+      job.steps.timed("repair", [&] { is_tried = repair(job, distance, stuck); });
       if (!is_tried) break;
       distance = finish_and_measure(job);
     }

@@ -394,9 +394,11 @@ struct DistanceMeter::Memory {
                  });
     const double small = sampling.enough * least_hausd;
     const FromModel from_model(out, model, *patches, least_hausd, small);
-    Sampler(out.corners, sampling, lattices, least_hausd, true, from_model).sample_all(of_out);
+    Sampler(out.corners, sampling, sampling.step.out, lattices, least_hausd, true, from_model)
+        .sample_all(of_out);
     const FromOutput from_output(out, model, *tree, small);
-    Sampler(facets, sampling, lattices, least_hausd, false, from_output).sample_all(of_model);
+    Sampler(facets, sampling, sampling.step.model, lattices, least_hausd, false, from_output)
+        .sample_all(of_model);
   }
 
   const SurfaceModel& model;
@@ -413,6 +415,8 @@ DistanceMeter::DistanceMeter(const SurfaceModel& model, const DistanceSampling& 
     : memory_(std::make_unique<Memory>(model, sampling)) {}
 
 DistanceMeter::~DistanceMeter() = default;
+
+const SampleSteps& DistanceMeter::steps() const { return memory_->sampling.step; }
 
 SurfaceDistance DistanceMeter::measure(const TetMesh& mesh) {
   Memory& m = *memory_;
@@ -433,19 +437,19 @@ SurfaceDistance DistanceMeter::measure(const TetMesh& mesh) {
 
 SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel& model,
                                          double step, double most, double enough) {
-  return DistanceMeter(model, {step, most, enough}).measure(mesh);
+  return DistanceMeter(model, {{step, step}, most, enough}).measure(mesh);
 }
 
 namespace {
 
 /// Of the longest edges of triangles, the root of the mean square.
-template <class Triangle>
-double mean_edge(std::size_t n, Triangle&& triangle) {
+double mean_edge(const std::vector<Corners>& triangles) {
+  const std::size_t n = triangles.size();
   const double sum = parallel_reduce(
       n, 0.0,
       [&](std::size_t begin, std::size_t end) {
         double here = 0;
-        for (std::size_t i = begin; i < end; ++i) here += longest_edge2(triangle(i));
+        for (std::size_t i = begin; i < end; ++i) here += longest_edge2(triangles[i]);
         return here;
       },
       std::plus<>{});
@@ -454,34 +458,29 @@ double mean_edge(std::size_t n, Triangle&& triangle) {
 
 }  // namespace
 
-double default_sample_step(const TetMesh& mesh, const SurfaceModel& model) {
+SampleSteps default_sample_steps(const TetMesh& mesh, const SurfaceModel& model) {
   constexpr double kStepsAcrossBox = 400;
-  // A lattice of 9 intervals has 55 points.
-  constexpr double kMeanIntervals = 9;
-  const auto facet = [&](std::size_t f) { return model.facet_corners(std::int32_t(f)); };
-  const std::vector<TriangleId> ids =
-      ids_where(mesh.triangles.size(), [&](TriangleId t) { return mesh.triangles[t].alive(); });
-  const auto triangle = [&](std::size_t i) -> Corners {
-    const auto& v = mesh.triangles[ids[i]].v;
-    return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
-  };
-  const double coarse = std::max(mean_edge(model.facets(), facet), mean_edge(ids.size(), triangle));
+  // Lattices of 9 and 4 intervals have 55 and 15 points; those on corners and edges count in part.
+  constexpr double kMeanIntervals = 9, kMeanModelIntervals = 4;
+  const double edge = mean_edge(OutputSurface(mesh).corners);
   const Box box = parallel_reduce(
       model.facets(), Box{},
       [&](std::size_t begin, std::size_t end) {
         Box here;
         for (std::size_t f = begin; f < end; ++f)
-          for (const Vec3& p : facet(f)) here.add(p);
+          for (const Vec3& p : model.facet_corners(std::int32_t(f))) here.add(p);
         return here;
       },
       [](Box a, const Box& b) {
         a.add(b);
         return a;
       });
-  const double diagonal = box.empty() ? 0 : distance(box.low, box.high);
-  // Any step does for surfaces without extent.
-  const double step = std::max(diagonal / kStepsAcrossBox, coarse / kMeanIntervals);
-  return step > 0 ? step : 1;
+  const double least = box.empty() ? 0 : distance(box.low, box.high) / kStepsAcrossBox;
+  const auto step = [&](double intervals) {
+    const double wanted = std::max(least, edge / intervals);
+    return wanted > 0 ? wanted : 1;  // any does for surfaces without extent
+  };
+  return {step(kMeanIntervals), step(kMeanModelIntervals)};
 }
 
 }  // namespace cavea

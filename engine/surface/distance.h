@@ -40,9 +40,14 @@ struct SurfaceDistance {
   }
 };
 
+/// Spacings of samples, greater than 0.
+struct SampleSteps {
+  double out, model;  ///< on the mesh's triangles, and on the model's facets
+};
+
 /// How closely surfaces are sampled, and which samples are listed: see measure_surface_distance().
 struct DistanceSampling {
-  double step;
+  SampleSteps step;
   double most = std::numeric_limits<double>::infinity();
   double enough = 0;
 };
@@ -58,6 +63,8 @@ class DistanceMeter {
 
   SurfaceDistance measure(const TetMesh& mesh);
 
+  const SampleSteps& steps() const;
+
  private:
   struct Memory;
   std::unique_ptr<Memory> memory_;
@@ -65,8 +72,9 @@ class DistanceMeter {
 
 /// Measures the Hausdorff distance on samples: each triangle, and each patch over its facet, on a
 /// barycentric lattice whose spacing on the flat triangle is at most `step`, coarser where a
-/// triangle would have more than about 300 samples; its corners, edge midpoints and centroid are
-/// always among them. Distances below a billionth of hausd are rounding, and may be bounds. Each
+/// triangle would have more than about 2,000 samples; its corners, edge midpoints and centroid are
+/// always among them, and where these come near hausd it is looked for peaks between them.
+/// Distances below a billionth of hausd are rounding, and may be bounds. Each
 /// sample is measured against all of the other surface, whatever its patches. Infinite from a
 /// surface that is empty; 0 of one that is. The same bits at any number of threads. \param step
 /// greater than 0 \param enough where corners, edge midpoints and centroid are all within so many
@@ -81,8 +89,9 @@ SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel
 /// Largest distance of the model's patches from its own flat facets.
 double measure_bulge(const SurfaceModel& model);
 
-/// A step for measure_surface_distance(): 1/400 of the model's box diagonal, or more where that
-/// would take more than about 50 samples a triangle on the average of either surface.
-double default_sample_step(const TetMesh& mesh, const SurfaceModel& model);
+/// 1/400 of the model's box diagonal, or more where that would take more than about 50 samples of
+/// a mesh's triangle on the average, or 11 of the model beside one: a facet may be far larger, and
+/// what is nearest to it changes from triangle to triangle.
+SampleSteps default_sample_steps(const TetMesh& mesh, const SurfaceModel& model);
 
 }  // namespace cavea

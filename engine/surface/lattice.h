@@ -16,8 +16,8 @@ class Lattice {
  public:
   /// Corners and edge midpoints.
   static constexpr int kMinIntervals = 2;
-  /// 276 places; a triangle that needs more at the caller's step is far larger than the rest.
-  static constexpr int kMaxIntervals = 22;
+  /// 2,145 places; a triangle that needs more at the caller's step is far larger than the rest.
+  static constexpr int kMaxIntervals = 64;
 
   struct Place {
     double u = 0, v = 0;

@@ -37,13 +37,17 @@ struct Sampled {
   bool exact = false;
 
   void add(const Vec3& x, const Measured& m) {
+    raise(x, m);
+    sum += m.distance;
+    ++count;
+  }
+  /// A place that is looked at because it is far counts for no mean.
+  void raise(const Vec3& x, const Measured& m) {
     max = std::max(max, m.distance);
     if (m.distance > worst * m.hausd) {
       worst = m.distance / m.hausd, hausd = m.hausd;
       where = x, triangle = m.triangle;
     }
-    sum += m.distance;
-    ++count;
   }
   /// A bound is no place to go to.
   void add_bound(const Measured& m, double least_hausd) {
@@ -63,12 +67,13 @@ struct Sampled {
 template <class Side>
 class Sampler {
  public:
-  /// \param may_stop where the first samples are all near: not where the triangle is far larger
-  /// than those of the other surface
-  Sampler(std::span<const Corners> triangles, const DistanceSampling& sampling,
+  /// \param step of the lattices \param may_stop where the first samples are all near: not where
+  /// the triangle is far larger than those of the other surface
+  Sampler(std::span<const Corners> triangles, const DistanceSampling& sampling, double step,
           const Lattices& lattices, double least_hausd, bool may_stop, const Side& side)
       : triangles_(triangles),
         sampling_(sampling),
+        step_(step),
         lattices_(lattices),
         least_hausd_(least_hausd),
         may_stop_(may_stop),
@@ -108,7 +113,7 @@ class Sampler {
   bool all_exact() const { return sampling_.enough == 0; }
 
   int intervals(std::size_t t) const {
-    const double wanted = std::ceil(std::sqrt(longest_edge2(triangles_[t])) / sampling_.step);
+    const double wanted = std::ceil(std::sqrt(longest_edge2(triangles_[t])) / step_);
     return int(std::clamp<double>(wanted, Lattice::kMinIntervals, Lattice::kMaxIntervals));
   }
 
@@ -191,51 +196,80 @@ class Sampler {
   Sampled summary(std::size_t t, const Lattice& lattice, bool exact, Scratch& scratch) const {
     const std::vector<Measured>& measured = scratch.measured;
     Sampled s;
-    Lattice::Place worst_at;
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-      const double before = s.worst;
-      const Lattice::Place& p = lattice.places()[i];
-      if (!measured[i].exact) {
-        if (!exact) s.add_bound(measured[i], least_hausd_);
-        continue;
-      }
-      s.add(at(t, p), measured[i]);
-      if (s.worst > before) worst_at = p;
-    }
+    for (std::size_t i = 0; i < measured.size(); ++i)
+      if (measured[i].exact)
+        s.add(at(t, lattice.places()[i]), measured[i]);
+      else if (!exact)
+        s.add_bound(measured[i], least_hausd_);
     s.exact = exact;
     s.intervals = lattice.intervals();
-    if (exact && s.worst > kNearLimit) climb(t, worst_at, 0.5 / s.intervals, scratch, s);
+    if (exact && s.worst > kNearLimit)
+      for (const Lattice::Place& peak : peaks(lattice, measured, s.worst))
+        climb(t, peak, 0.5 / s.intervals, scratch, s);
     const Corners& k = triangles_[t];
     s.area = norm(cross(k[1] - k[0], k[2] - k[0])) / 2;
     return s;
   }
 
-  /// Adds samples around the worst one of a triangle, nearer and nearer, and around what is worse
-  /// then.
-  void climb(std::size_t t, Lattice::Place worst_at, double step, Scratch& scratch,
-             Sampled& s) const {
-    constexpr int kHalvings = 3;
-    constexpr int kDirections[][2] = {{1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {-1, 0}};
+  /// The worst place, and those nearly as bad that are not beside a worse one: what is highest
+  /// between places need not be at the highest of them.
+  static std::vector<Lattice::Place> peaks(const Lattice& lattice,
+                                           const std::vector<Measured>& measured, double worst) {
+    constexpr double kNearlyWorst = 0.8, kApart = 1.5;  // of the worst; in intervals
+    constexpr std::size_t kMostPeaks = 8;
+    std::vector<std::pair<double, std::size_t>> high;
+    for (std::size_t i = 0; i < measured.size(); ++i)
+      if (const double d = measured[i].distance / measured[i].hausd; d >= kNearlyWorst * worst)
+        high.emplace_back(-d, i);
+    std::ranges::sort(high);
+    std::vector<Lattice::Place> found;
+    for (const auto& [d, i] : high) {
+      if (found.size() == kMostPeaks) break;
+      const Lattice::Place& p = lattice.places()[i];
+      const auto is_beside = [&](const Lattice::Place& q) {
+        const double u = p.u - q.u, v = p.v - q.v;
+        return std::max({std::abs(u), std::abs(v), std::abs(u + v)}) * lattice.intervals() < kApart;
+      };
+      if (std::ranges::none_of(found, is_beside)) found.push_back(p);
+    }
+    return found;
+  }
+
+  /// Adds samples around a peak of a triangle and around what is higher then, nearer once none is.
+  void climb(std::size_t t, Lattice::Place peak, double step, Scratch& scratch, Sampled& s) const {
+    constexpr int kMostRings = 6, kHalvings = 3;
+    constexpr int kDirections[][2] = {{0, 0}, {1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {-1, 0}};
     std::vector<Lattice::Place> places;
-    for (int k = 0; k < kHalvings; ++k, step /= 2) {
+    for (int ring = 0, halvings = 0; ring < kMostRings && halvings < kHalvings; ++ring) {
       places.clear();
       for (const auto& [i, j] : kDirections) {
-        const Lattice::Place p{worst_at.u + i * step, worst_at.v + j * step};
+        const Lattice::Place p{peak.u + i * step, peak.v + j * step};
         if (p.u >= 0 && p.v >= 0 && p.u + p.v <= 1) places.push_back(p);
       }
-      if (places.empty()) continue;
-      scratch.measured.resize(places.size());
-      side_.bound(t, Lattice::block_of(places), scratch.near, scratch.measured);
-      for (std::size_t i = 0; i < places.size(); ++i) {
-        const double before = s.worst, small = std::min(s.max, s.worst * least_hausd_);
-        const Vec3 x = at(t, places[i]);
-        Measured m = scratch.measured[i];
-        if (!m.exact && (all_exact() || m.distance > small))
-          m = side_.exact(t, x, m, all_exact() ? -1 : small);
-        s.add(x, m);
-        if (s.worst > before) worst_at = places[i];
-      }
+      if (places.empty()) return;
+      const std::size_t highest = look_at(t, places, scratch, s);
+      peak = places[highest];
+      if (highest == 0) step /= 2, ++halvings;
     }
+  }
+
+  /// \return which of the places is farthest
+  std::size_t look_at(std::size_t t, const std::vector<Lattice::Place>& places, Scratch& scratch,
+                      Sampled& s) const {
+    scratch.measured.resize(places.size());
+    side_.bound(t, Lattice::block_of(places), scratch.near, scratch.measured);
+    std::size_t farthest = 0;
+    double most = -1;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double small = std::min(s.max, s.worst * least_hausd_);
+      const Vec3 x = at(t, places[i]);
+      Measured m = scratch.measured[i];
+      if (!m.exact && (all_exact() || m.distance > small))
+        m = side_.exact(t, x, m, all_exact() ? -1 : small);
+      s.raise(x, m);
+      if (m.distance > most * m.hausd) most = m.distance / m.hausd, farthest = i;
+    }
+    return farthest;
   }
 
   void make_exact_what_matters(std::vector<Sampled>& samples) const {
@@ -274,6 +308,7 @@ class Sampler {
 
   std::span<const Corners> triangles_;
   const DistanceSampling& sampling_;
+  double step_;
   const Lattices& lattices_;
   double least_hausd_;
   bool may_stop_;

@@ -266,8 +266,8 @@ void expect_as_alone(const DistanceSampling& sampling) {
     if (step % 3 == 2) mesh.triangles.erase(mesh.triangles.begin() + random() % 20);
     if (step == 6) std::ranges::shuffle(mesh.triangles, random);
     const SurfaceDistance now = meter.measure(mesh);
-    const SurfaceDistance alone =
-        measure_surface_distance(mesh, ball.model, sampling.step, sampling.most, sampling.enough);
+    const SurfaceDistance alone = measure_surface_distance(mesh, ball.model, sampling.step.out,
+                                                           sampling.most, sampling.enough);
     expect_same(now.out_to_model, alone.out_to_model);
     expect_same(now.model_to_out, alone.model_to_out);
     expect_same(now.far_triangles, alone.far_triangles);
@@ -280,7 +280,7 @@ void expect_as_alone(const DistanceSampling& sampling) {
 TEST(DistanceMeter, SaysOfEachMeshWhatIsSaidOfItAlone) {
   for (const double enough : {0.0, 0.2}) {
     SCOPED_TRACE(enough);
-    expect_as_alone({kStep, 0.5, enough});
+    expect_as_alone({{kStep, kStep}, 0.5, enough});
   }
 }
 
@@ -309,14 +309,40 @@ TEST(SurfaceDistance, HasTheSameBitsAtAnyNumberOfThreads) {
   EXPECT_GT(first.size(), 20u);
 }
 
-TEST(DefaultSampleStep, FollowsTheBoxAndTheCoarserSurface) {
+TEST(DefaultSampleSteps, FollowTheBoxAndTheMesh) {
   const auto fine = modelled_ball(12);
   const auto coarse = modelled_ball(2);
-  const double step = default_sample_step(fine.mesh, fine.model);
-  EXPECT_GE(step, 2 * std::sqrt(3.0) / 400 * 0.99);
-  EXPECT_GT(default_sample_step(coarse.mesh, fine.model), step);
-  EXPECT_GT(default_sample_step(fine.mesh, coarse.model), step);
-  EXPECT_GT(default_sample_step(TetMesh{}, test::modelled(TetMesh{}).model), 0);
+  const SampleSteps steps = default_sample_steps(fine.mesh, fine.model);
+  EXPECT_GE(steps.out, 2 * std::sqrt(3.0) / 400 * 0.99);
+  EXPECT_GE(steps.model, steps.out);
+  EXPECT_GT(default_sample_steps(coarse.mesh, fine.model).out, steps.out);
+  EXPECT_GT(default_sample_steps(coarse.mesh, fine.model).model, steps.model);
+  EXPECT_NEAR(default_sample_steps(fine.mesh, coarse.model).model, steps.model, 0.1 * steps.model);
+  const SampleSteps any = default_sample_steps(TetMesh{}, test::modelled(TetMesh{}).model);
+  EXPECT_GT(any.out, 0);
+  EXPECT_GT(any.model, 0);
+}
+
+/// Of a facet that is a thousand times larger than the mesh's triangles.
+TEST(DefaultSampleSteps, ADentOfOneVertexIsFoundFromALargeFacet) {
+  const auto cube = modelled_cube(1);
+  const TetMesh flat = build(test::kuhn_cube(24)).mesh;
+  const double depth = 1.2 * cube.model.hausd(0);
+  constexpr unsigned kSeed = 5;
+  SCOPED_TRACE(kSeed);
+  std::mt19937 random(kSeed);
+  for (int trial = 0; trial < 20; ++trial) {
+    TetMesh dented = flat;
+    const double x = double(1 + random() % 23) / 24, y = double(1 + random() % 23) / 24;
+    int moved = 0;
+    for (Vec3& p : dented.points)
+      if (distance(p, {x, y, 1}) < 1e-9) p.z -= depth, ++moved;
+    ASSERT_EQ(moved, 1);
+    DistanceMeter meter(cube.model, {default_sample_steps(dented, cube.model), 0.95, 0.5});
+    const SurfaceDistance d = meter.measure(dented);
+    EXPECT_GT(d.model_to_out.max, 0.96 * depth) << x << " " << y;
+    EXPECT_FALSE(d.far_facets.empty());
+  }
 }
 
 }  // namespace
