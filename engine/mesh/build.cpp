@@ -221,8 +221,9 @@ struct ListedTriangles {
   std::vector<char> kept;              ///< by listed triangle
 };
 
+/// Those on faces inside a reference are kept if they are required, or all are to be.
 ListedTriangles find_listed(const MeshData& data, const std::vector<VertexId>& new_vertex,
-                            const TetMesh& mesh, const SurfaceFaces& faces) {
+                            const TetMesh& mesh, const SurfaceFaces& faces, bool keep_internal) {
   const std::size_t n = data.triangles.size();
   ListedTriangles out{std::vector<std::uint32_t>(faces.slots(), ListedTriangles::kUnlisted),
                       std::vector<std::uint32_t>(n, ListedTriangles::kUnlisted),
@@ -239,9 +240,13 @@ ListedTriangles find_listed(const MeshData& data, const std::vector<VertexId>& n
     out.slot_of[i] = std::uint32_t(begin);
     atomic_min(out.at_slot[begin], std::uint32_t(i));
   });
+  std::vector<char> is_required(n, 0);
+  for (const std::int32_t i : data.required_triangles) is_required[std::size_t(i)] = 1;
   parallel_for(n, [&](std::size_t i) {
     const std::uint32_t slot = out.slot_of[i];
-    out.kept[i] = slot != ListedTriangles::kUnlisted && out.at_slot[slot] == i;
+    if (slot == ListedTriangles::kUnlisted || out.at_slot[slot] != i) return;
+    const FaceLink face = faces[slot];
+    out.kept[i] = keep_internal || is_required[i] || is_surface_face(mesh, face.tet(), face.face());
   });
   return out;
 }
@@ -363,14 +368,15 @@ BuildResult build(MeshData data, const BuildOptions& options) {
   link_faces(mesh);
   if (out.summary.flat_tets != 0) orient_flat_tets(mesh);
 
-  const SurfaceFaces faces(mesh, options.keep_internal ? FaceChoice::kAll : FaceChoice::kSurface);
-  const ListedTriangles listed = find_listed(data, new_vertex, mesh, faces);
+  const bool may_be_inside = options.keep_internal || !data.required_triangles.empty();
+  const SurfaceFaces faces(mesh, may_be_inside ? FaceChoice::kAll : FaceChoice::kSurface);
+  const ListedTriangles listed = find_listed(data, new_vertex, mesh, faces, options.keep_internal);
   take_triangles(data, new_vertex, faces, listed, mesh, out.summary);
   make_triangles(faces, listed, mesh, out.summary);
   attach_triangles(mesh, faces);
   peel(data, new_vertex, out);
   if (mesh.points.size() < new_vertex.size()) out.unused_vertices = unused_of(new_vertex);
-  if (options.keep_internal) orient_internal_sheets(mesh);
+  if (may_be_inside) orient_internal_sheets(mesh);
   tag_features(mesh, data, new_vertex, out.summary);
   take_normals(data, new_vertex, mesh);
   return out;

@@ -20,8 +20,8 @@ struct BuildSummary {
 };
 
 struct BuildOptions {
-  /// Keeps listed triangles between tets of one reference as surface. They may end inside the
-  /// volume; their rims are then features.
+  /// Keeps listed triangles between tets of one reference as surface, and not only the required
+  /// ones. They may end inside the volume; their rims are then features.
   bool keep_internal = false;
 };
 

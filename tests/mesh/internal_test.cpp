@@ -33,6 +33,17 @@ TEST(Internal, AreDroppedUnlessAskedFor) {
   expect_sound(dropped.mesh);
 }
 
+TEST(Internal, AreKeptWhereTheyAreRequired) {
+  MeshData data = floating();
+  data.required_triangles = {1, 6};
+  const BuildResult kept = build(data);
+  EXPECT_EQ(kept.summary.dropped_triangles, 6);
+  expect_sound(kept.mesh);
+  const std::vector<TriangleId> sheet = internal_triangles(kept.mesh);
+  ASSERT_EQ(sheet.size(), 2u);
+  for (const TriangleId i : sheet) EXPECT_TRUE(kept.mesh.triangles[i].tags & tag::kRequired);
+}
+
 TEST(Internal, AreKeptWithTheirReferenceAndRim) {
   const BuildResult kept = build(floating(), kKeep);
   EXPECT_EQ(kept.summary.dropped_triangles, 0);

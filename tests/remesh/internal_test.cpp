@@ -1,4 +1,6 @@
 // Internal surface triangles stay where they are, with their reference.
+#include <set>
+
 #include "remesh/support.h"
 #include "support/sheets.h"
 
@@ -98,6 +100,37 @@ TEST(Internal, ScatteredTrianglesStay) {
     EXPECT_EQ(euler(mesh), before);
     // Where two of them meet bluntly the model rounds the fold.
     expect_near(area_of_ref(mesh), area, 0.01);
+  }
+}
+
+/// The corners of internal triangles that are required.
+std::set<std::array<std::array<double, 3>, 3>> required_inside(const TetMesh& mesh) {
+  std::set<std::array<std::array<double, 3>, 3>> found;
+  for (const Triangle& t : mesh.triangles) {
+    if (!t.alive() || !(t.tags & tag::kRequired) || !(t.tags & tag::kInternal)) continue;
+    std::array<std::array<double, 3>, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& p = mesh.points[t.v[k]];
+      corners[k] = {p.x, p.y, p.z};
+    }
+    std::ranges::sort(corners);
+    found.insert(corners);
+  }
+  return found;
+}
+
+TEST(RequiredInside, StayToTheBitThoughOtherInternalTrianglesGo) {
+  MeshData data = cube_with_sheet(
+      4, [](double y, double z) { return y > 0.2 && y < 0.8 && z > 0.2 && z < 0.8; });
+  data.required_triangles = {0, 3, 4};
+  TetMesh mesh = build(data).mesh;
+  const auto before = required_inside(mesh);
+  ASSERT_EQ(before.size(), 3u);
+  for (const double size : {0.3, 0.1}) {
+    SCOPED_TRACE(size);
+    expect_good(remesh(mesh, {}, uniform(size)));
+    expect_sound(mesh);
+    EXPECT_EQ(required_inside(mesh), before);
   }
 }
 
