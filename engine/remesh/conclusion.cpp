@@ -78,10 +78,11 @@ void conclude(Job& job, const SurfaceDistance& distance) {
   const TetMesh& mesh = job.mesh;
   report.surface_distance = distance.max();
   report.bulge = job.surface.bulge();
+  const bool as_before = is_as_before(job);
   std::vector<Crossing> crossings;
   run_together([&] { crossings = find_crossings(mesh); },
                [&] {
-                 report.after = is_as_before(job) ? report.before : summary_of(mesh);
+                 report.after = as_before ? report.before : summary_of(mesh);
                  report.interface_quality = interface_quality(mesh);
                  if (job.options.directions)
                    report.directions = surface_directions(mesh, job.surface.model());
@@ -89,7 +90,7 @@ void conclude(Job& job, const SurfaceDistance& distance) {
   report.verdicts = counts_of(job.verdicts);
   report.stubborn = find_stubborn(mesh, job.surface.working_model(), last_phase(job.r).cycle,
                                   job.options.min_quality);
-  report.finer = job.sizes.finer();
+  report.finer = as_before ? 1 : job.sizes.finer();
   report.hausd = job.r.hausd, report.hmin = job.r.hmin, report.hmax = job.r.hmax,
   report.hgrad = job.r.hgrad;
   report.targets = targets_of(job, distance, crossings);

@@ -52,7 +52,8 @@ struct MeshSummary {
 struct Report {
   int threads = 0;
   double hausd = 0, hmin = 0, hmax = 0, hgrad = 0;  ///< as resolved; hgrad infinite if unbounded
-  /// The share of the sizes asked for that was used, as elements of these had no room; mostly 1.
+  /// The share of the sizes asked for that was used, as elements of these had no room; mostly 1,
+  /// and where nothing was changed.
   double finer = 1;
   MeshSummary before, after;  ///< before.lengths is empty (edges 0) when sizes were not yet known
   std::vector<PhaseTime> phases;

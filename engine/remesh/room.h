@@ -5,7 +5,7 @@
 namespace cavea {
 
 /// Where a body has no room, sizes of this share of those wanted are the finest that are tried.
-inline constexpr double kFinestRoom = 0.41;
+inline constexpr double kFinestRoom = 0.21;
 
 /// All bodies that are nowhere narrow reach this mean quality.
 inline constexpr double kRoomyMean = 0.78;
