@@ -460,8 +460,8 @@ double mean_edge(const std::vector<Corners>& triangles) {
 
 SampleSteps default_sample_steps(const TetMesh& mesh, const SurfaceModel& model) {
   constexpr double kStepsAcrossBox = 400;
-  // Lattices of 9 and 4 intervals have 55 and 15 points; those on corners and edges count in part.
-  constexpr double kMeanIntervals = 9, kMeanModelIntervals = 4;
+  // Lattices of 9 and 3 intervals have 55 and 10 points; those on corners and edges count in part.
+  constexpr double kMeanIntervals = 9, kMeanModelIntervals = 3;
   const double edge = mean_edge(OutputSurface(mesh).corners);
   const Box box = parallel_reduce(
       model.facets(), Box{},

@@ -90,7 +90,7 @@ SurfaceDistance measure_surface_distance(const TetMesh& mesh, const SurfaceModel
 double measure_bulge(const SurfaceModel& model);
 
 /// 1/400 of the model's box diagonal, or more where that would take more than about 50 samples of
-/// a mesh's triangle on the average, or 11 of the model beside one: a facet may be far larger, and
+/// a mesh's triangle on the average, or 7 of the model beside one: a facet may be far larger, and
 /// what is nearest to it changes from triangle to triangle.
 SampleSteps default_sample_steps(const TetMesh& mesh, const SurfaceModel& model);
 

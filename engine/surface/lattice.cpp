@@ -6,15 +6,19 @@
 
 namespace cavea {
 
-Lattice::Lattice(int n) : intervals_(n) {
+Lattice::Lattice(int n, int rows) : intervals_(n), rows_(rows) {
   places_ = {{1.0 / 3, 1.0 / 3}, {0, 0}, {0.5, 0}, {1, 0}, {0, 0.5}, {0.5, 0.5}, {0, 1}};
   const auto first = places_;
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n - j; ++i) {
-      const Place p{double(i) / n, double(j) / n};
+  for (int j = 0; j <= rows; ++j) {
+    // As many in a row as its length asks for.
+    const int count = (n * (rows - j) + rows - 1) / rows;
+    for (int i = 0; i <= count; ++i) {
+      const double u = count > 0 ? double(i * (rows - j)) / (count * rows) : 0;
+      const Place p{u, double(j) / rows};
       const auto is_it = [&](const Place& q) { return q.u == p.u && q.v == p.v; };
       if (std::none_of(first.begin(), first.end(), is_it)) places_.push_back(p);
     }
+  }
   std::vector<std::int32_t> all(places_.size());
   std::iota(all.begin(), all.end(), 0);
   divide(all, 0, all.size());
@@ -38,7 +42,7 @@ void Lattice::divide(std::vector<std::int32_t>& places, std::size_t begin, std::
       low[k] = std::min(low[k], coordinate(places[i], k));
       high[k] = std::max(high[k], coordinate(places[i], k));
     }
-  const int k = high[0] - low[0] >= high[1] - low[1] ? 0 : 1;
+  const int k = (high[0] - low[0]) * intervals_ >= (high[1] - low[1]) * rows_ ? 0 : 1;
   const std::size_t middle = (begin + end) / 2;
   const auto first = places.begin();
   std::sort(first + std::ptrdiff_t(begin), first + std::ptrdiff_t(end),
@@ -58,10 +62,6 @@ Lattice::Block Lattice::block_of(std::span<const Place> places) {
     block.place[i] = std::int32_t(p), block.u[i] = places[p].u, block.v[i] = places[p].v;
   }
   return block;
-}
-
-Lattices::Lattices() {
-  for (int n = Lattice::kMinIntervals; n <= Lattice::kMaxIntervals; ++n) all_.emplace_back(n);
 }
 
 }  // namespace cavea

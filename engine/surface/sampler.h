@@ -108,6 +108,7 @@ class Sampler {
   struct Scratch {
     typename Side::Near near;
     std::vector<Measured> measured;  ///< by the places of a lattice
+    std::size_t apex = 2;            ///< of the triangle: the corner that rows lead to
   };
 
   bool all_exact() const { return sampling_.enough == 0; }
@@ -117,27 +118,63 @@ class Sampler {
     return int(std::clamp<double>(wanted, Lattice::kMinIntervals, Lattice::kMaxIntervals));
   }
 
-  Vec3 at(std::size_t t, const Lattice::Place& p) const { return side_.at(t, p.u, p.v); }
+  /// A needle takes fewer rows along its longest edge than that has intervals.
+  const Lattice& lattice_of(std::size_t t, int n) const {
+    const Corners& k = triangles_[t];
+    const double area2 = norm(cross(k[1] - k[0], k[2] - k[0])), longest2 = longest_edge2(k);
+    const double share = longest2 > 0 ? area2 / longest2 : 0;  // of the height in that edge
+    return lattices_.with_rows(n, int(std::ceil(share * n)));
+  }
+
+  /// The corner opposite to the longest edge.
+  std::size_t apex_of(std::size_t t) const {
+    const Corners& k = triangles_[t];
+    const double opposite2[] = {distance2(k[1], k[2]), distance2(k[2], k[0]),
+                                distance2(k[0], k[1])};
+    return std::size_t(std::max_element(opposite2, opposite2 + 3) - opposite2);
+  }
+
+  /// A lattice's place as coordinates of the triangle's own second and third corner.
+  static Lattice::Place turned(const Lattice::Place& p, std::size_t apex) {
+    const double rest = 1 - p.u - p.v;
+    return apex == 2 ? p : apex == 0 ? Lattice::Place{rest, p.u} : Lattice::Place{p.v, rest};
+  }
+
+  Vec3 at(std::size_t t, const Lattice::Place& p, std::size_t apex) const {
+    const Lattice::Place own = turned(p, apex);
+    return side_.at(t, own.u, own.v);
+  }
+
+  void bound(std::size_t t, const Lattice::Block& block, Scratch& s) const {
+    if (s.apex == 2) return side_.bound(t, block, s.near, s.measured);
+    Lattice::Block own = block;
+    for (std::size_t i = 0; i < PointBlock::kMost; ++i) {
+      const Lattice::Place p = turned({block.u[i], block.v[i]}, s.apex);
+      own.u[i] = p.u, own.v[i] = p.v;
+    }
+    side_.bound(t, own, s.near, s.measured);
+  }
 
   void bound(std::size_t t, const Lattice& lattice, Scratch& s) const {
     s.measured.resize(lattice.places().size());
-    for (const Lattice::Block& block : lattice.blocks()) side_.bound(t, block, s.near, s.measured);
+    for (const Lattice::Block& block : lattice.blocks()) bound(t, block, s);
   }
 
   /// \param n intervals of the lattice, if known: then nothing is asked that may not do
   Sampled sample(std::size_t t, const Floor& floor, int n, Scratch& scratch) const {
     side_.begin(t, scratch.near);
+    scratch.apex = apex_of(t);
     if (n > 0) {
       side_.widen(t, scratch.near);
-      bound(t, lattices_[n], scratch);
+      bound(t, lattice_of(t, n), scratch);
     } else {
       n = intervals(t);
       if (n > Lattice::kMinIntervals && may_stop_ && !all_exact() && are_first_near(t, scratch))
         n = Lattice::kMinIntervals;
       else
-        bound(t, lattices_[n], scratch);
+        bound(t, lattice_of(t, n), scratch);
     }
-    return resolve(t, lattices_[n], floor, scratch);
+    return resolve(t, lattice_of(t, n), floor, scratch);
   }
 
   /// Whether the corners, edge midpoints and centroid are; measured only as far as that needs.
@@ -152,7 +189,7 @@ class Sampler {
       const std::size_t i = farthest_bound(s.measured);
       if (i == s.measured.size() || is_near(s.measured[i])) return true;
       Measured& m = s.measured[i];
-      m = side_.exact(t, at(t, lattices_.coarsest().places()[i]), m, near);
+      m = side_.exact(t, at(t, lattices_.coarsest().places()[i], s.apex), m, near);
       m.exact = m.distance > near;
       if (m.distance > sampling_.enough * m.hausd) return false;
     }
@@ -185,7 +222,7 @@ class Sampler {
         continue;
       }
       Measured& m = measured[i];
-      const Vec3 x = at(t, lattice.places()[i]);
+      const Vec3 x = at(t, lattice.places()[i], scratch.apex);
       m = side_.exact(t, x, m, all_exact() ? -1 : small);
       m.exact = all_exact() || m.distance > small;
       if (m.exact) s.add(x, m);
@@ -198,14 +235,14 @@ class Sampler {
     Sampled s;
     for (std::size_t i = 0; i < measured.size(); ++i)
       if (measured[i].exact)
-        s.add(at(t, lattice.places()[i]), measured[i]);
+        s.add(at(t, lattice.places()[i], scratch.apex), measured[i]);
       else if (!exact)
         s.add_bound(measured[i], least_hausd_);
     s.exact = exact;
     s.intervals = lattice.intervals();
     if (exact && s.worst > kNearLimit)
       for (const Lattice::Place& peak : peaks(lattice, measured, s.worst))
-        climb(t, peak, 0.5 / s.intervals, scratch, s);
+        climb(t, peak, {0.5 / lattice.intervals(), 0.5 / lattice.rows()}, scratch, s);
     const Corners& k = triangles_[t];
     s.area = norm(cross(k[1] - k[0], k[2] - k[0])) / 2;
     return s;
@@ -227,8 +264,8 @@ class Sampler {
       if (found.size() == kMostPeaks) break;
       const Lattice::Place& p = lattice.places()[i];
       const auto is_beside = [&](const Lattice::Place& q) {
-        const double u = p.u - q.u, v = p.v - q.v;
-        return std::max({std::abs(u), std::abs(v), std::abs(u + v)}) * lattice.intervals() < kApart;
+        const double u = (p.u - q.u) * lattice.intervals(), v = (p.v - q.v) * lattice.rows();
+        return std::max({std::abs(u), std::abs(v), std::abs(u + v)}) < kApart;
       };
       if (std::ranges::none_of(found, is_beside)) found.push_back(p);
     }
@@ -236,20 +273,21 @@ class Sampler {
   }
 
   /// Adds samples around a peak of a triangle and around what is higher then, nearer once none is.
-  void climb(std::size_t t, Lattice::Place peak, double step, Scratch& scratch, Sampled& s) const {
-    constexpr int kMostRings = 6, kHalvings = 3;
+  void climb(std::size_t t, Lattice::Place peak, Lattice::Place step, Scratch& scratch,
+             Sampled& s) const {
+    constexpr int kMostRings = 8, kHalvings = 4;
     constexpr int kDirections[][2] = {{0, 0}, {1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {-1, 0}};
     std::vector<Lattice::Place> places;
     for (int ring = 0, halvings = 0; ring < kMostRings && halvings < kHalvings; ++ring) {
       places.clear();
       for (const auto& [i, j] : kDirections) {
-        const Lattice::Place p{peak.u + i * step, peak.v + j * step};
+        const Lattice::Place p{peak.u + i * step.u, peak.v + j * step.v};
         if (p.u >= 0 && p.v >= 0 && p.u + p.v <= 1) places.push_back(p);
       }
       if (places.empty()) return;
       const std::size_t highest = look_at(t, places, scratch, s);
       peak = places[highest];
-      if (highest == 0) step /= 2, ++halvings;
+      if (highest == 0) step = {step.u / 2, step.v / 2}, ++halvings;
     }
   }
 
@@ -257,12 +295,12 @@ class Sampler {
   std::size_t look_at(std::size_t t, const std::vector<Lattice::Place>& places, Scratch& scratch,
                       Sampled& s) const {
     scratch.measured.resize(places.size());
-    side_.bound(t, Lattice::block_of(places), scratch.near, scratch.measured);
+    bound(t, Lattice::block_of(places), scratch);
     std::size_t farthest = 0;
     double most = -1;
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double small = std::min(s.max, s.worst * least_hausd_);
-      const Vec3 x = at(t, places[i]);
+      const Vec3 x = at(t, places[i], scratch.apex);
       Measured m = scratch.measured[i];
       if (!m.exact && (all_exact() || m.distance > small))
         m = side_.exact(t, x, m, all_exact() ? -1 : small);

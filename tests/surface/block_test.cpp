@@ -93,6 +93,26 @@ TEST(Lattice, HasEachPlaceInOneBlock) {
   }
 }
 
+TEST(Lattice, OfFewRowsHasThemAsFarApartAsThePlacesOfEach) {
+  const Lattices lattices;
+  for (const auto& [n, wanted] : {std::pair{64, 2}, {64, 5}, {64, 64}, {9, 3}, {2, 1}, {3, 1}}) {
+    SCOPED_TRACE(testing::Message() << n << " intervals, " << wanted << " rows");
+    const Lattice& lattice = lattices.with_rows(n, wanted);
+    EXPECT_GE(lattice.rows(), std::min(std::max(wanted, 2), n));
+    EXPECT_LT(lattice.rows(), std::max(2 * wanted + 2, 5));
+    // A needle of that height over an edge of 1: from any point of it a place is near.
+    const double across = double(wanted) / n;
+    Random random(3);
+    for (int k = 0; k < 200; ++k) {
+      const double v = random.unit(), u = random.unit() * (1 - v);
+      double nearest = 2;
+      for (const auto& p : lattice.places())
+        nearest = std::min(nearest, std::hypot(p.u + p.v / 2 - u - v / 2, (p.v - v) * across));
+      EXPECT_LE(nearest, 1.0 / n);
+    }
+  }
+}
+
 TEST(BezierTriangle, PlacesOfABlockAreThoseOfEach) {
   const auto ball = test::modelled_ball(3);
   const Lattice lattice(13);
