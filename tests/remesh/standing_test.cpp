@@ -149,7 +149,7 @@ TEST(Standing, IsNearlyWhatAResultIsFoundToBe) {
   EXPECT_FALSE(is_near(found(2, 90), faceted));
   EXPECT_TRUE(made_room(found(0.69, 0), faceted));
   EXPECT_TRUE(made_room(found(0.73, 6), smooth));
-  EXPECT_FALSE(made_room(found(0.3, 0), smooth));
+  EXPECT_FALSE(made_room(found(0.15, 0), smooth));
 }
 
 // Of a torus cut at ten degrees: what is given again has other sizes near the sharp rim.
