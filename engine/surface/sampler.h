@@ -164,17 +164,18 @@ class Sampler {
   Sampled sample(std::size_t t, const Floor& floor, int n, Scratch& scratch) const {
     side_.begin(t, scratch.near);
     scratch.apex = apex_of(t);
+    bool is_near = false;
     if (n > 0) {
       side_.widen(t, scratch.near);
-      bound(t, lattice_of(t, n), scratch);
     } else {
       n = intervals(t);
-      if (n > Lattice::kMinIntervals && may_stop_ && !all_exact() && are_first_near(t, scratch))
-        n = Lattice::kMinIntervals;
-      else
-        bound(t, lattice_of(t, n), scratch);
+      is_near =
+          n > Lattice::kMinIntervals && may_stop_ && !all_exact() && are_first_near(t, scratch);
+      if (is_near) n = Lattice::kMinIntervals;  // of which the bounds are known by now
     }
-    return resolve(t, lattice_of(t, n), floor, scratch);
+    const Lattice& lattice = lattice_of(t, n);
+    if (!is_near) bound(t, lattice, scratch);
+    return resolve(t, lattice, floor, scratch);
   }
 
   /// Whether the corners, edge midpoints and centroid are; measured only as far as that needs.
