@@ -22,16 +22,18 @@ namespace cavea {
 namespace {
 
 /// Where more of the tets are unsound, the domain is to blame: walls that meet at small angles have
-/// as many of them in any size.
+/// as many of them in any size. Of a small mesh a narrow place may be more.
 constexpr double kFew = 0.005;
+constexpr std::size_t kFewAtLeast = 30;
 /// However large the mesh is: each place is compared with all that have failed.
 constexpr std::size_t kMost = 10000;
 /// Of tets that are sound, but poor, only so few are worth it.
 constexpr double kHardlyAny = 0.0005;
 /// Two copies of a mesh of more tets would make it need more memory than all that came before.
 constexpr std::size_t kMostCopiedTwice = 10'000'000;
-/// Down to an eighth of the wanted size.
-constexpr int kHalvings = 3;
+/// Down to ResolvedOptions::finest.
+constexpr int kHalvings = 5;
+constexpr double kHalf = 0.5;
 
 /// What is done in a spot changes what is beside it.
 constexpr double kAround = 2;
@@ -50,17 +52,37 @@ constexpr int kFewestDetours = 12;
 constexpr double kTetsOfTrials = 1e6;
 constexpr std::size_t kMostPlaces = 30;
 
+/// If as many tets stay poor, the worst of them is to gain so much: half as far from a good one,
+/// the next halving of the sizes may mend all of them.
+constexpr double kClearGain = 0.03;
+
 std::vector<Vec3> centers_of(const TetMesh& mesh, const std::vector<TetId>& tets) {
   std::vector<Vec3> centers;
   for (const TetId t : tets) centers.push_back(centroid(mesh.corners(t)));
   return centers;
 }
 
+/// The tets of a mesh that are below a quality, the worst first.
+struct Bad {
+  std::vector<TetId> tets;
+  double worst = 1;
+
+  Bad(const TetMesh& mesh, double quality) : tets(tets_below(mesh, quality)) {
+    if (!tets.empty()) worst = mesh.qualities[tets.front()];
+  }
+
+  bool is_clearly_better_than(const Bad& other) const {
+    if (tets.size() != other.tets.size()) return tets.size() < other.tets.size();
+    return worst >= other.worst + kClearGain;
+  }
+};
+
 /// What a refinement is for.
 struct Aim {
-  double quality;  ///< tets below it are to become fewer
-  double growth;   ///< of sizes from where they are lowered
-  int trials;      ///< each leaves out the places where the last one was in vain
+  double quality;    ///< tets below it are to become fewer
+  double growth;     ///< of sizes from where they are lowered
+  int trials;        ///< each leaves out the places where the last one was in vain
+  int finer_trials;  ///< the same of sizes less than half, where halves were in vain
 };
 
 /// What a trial changes, as it was before.
@@ -92,9 +114,14 @@ class Refinement {
              const std::function<SurfaceDistance()>& measure)
       : job_(job), aim_(aim), distance_(distance), measure_(measure) {}
 
+  /// Half the sizes at all bad tets, again while that helps; where it does not, and no angle of the
+  /// domain is the reason, a quarter and so on: steps have more poor tets along them first.
   void refine() {
-    for (int k = 0; k < kHalvings; ++k)
-      if (!refine_once()) return;
+    double share = kHalf;
+    for (int k = 0; k < kHalvings; ++k) {
+      failed_.clear();
+      share = refine_once(share) ? kHalf : kHalf * share;
+    }
   }
 
   /// The last tets one by one, each with several other sizes, but where angles of the domain are
@@ -104,9 +131,9 @@ class Refinement {
     for (const double share : kOtherSizes) {
       failed_.clear();
       for (; left > 0; --left) {
-        const std::vector<TetId> bad = tets_below(job_.mesh, aim_.quality);
+        const Bad bad(job_.mesh, aim_.quality);
         const auto t =
-            first_blameless(bad, [&](TetId n) { return hopeful_spot(n, share).has_value(); });
+            first_blameless(bad.tets, [&](TetId n) { return hopeful_spot(n, share).has_value(); });
         if (!t) break;
         const SizeSphere spot = *hopeful_spot(*t, share);
         if (!refine_at({spot}, bad)) failed_.push_back({spot.center, spot.radius});
@@ -179,25 +206,27 @@ class Refinement {
     return false;
   }
 
-  /// \return whether fewer tets are below the quality
-  bool refine_once() {
-    const std::vector<TetId> bad = tets_below(job_.mesh, aim_.quality);
-    std::vector<SizeSphere> spots = hopeful_spots(bad);
-    if (spots.empty()) return false;
-    for (int trial = 0; trial < aim_.trials && !spots.empty(); ++trial) {
+  /// \return whether that made the bad tets fewer or better
+  bool refine_once(double share) {
+    const Bad bad(job_.mesh, aim_.quality);
+    const int trials = share == kHalf ? aim_.trials : aim_.finer_trials;
+    for (int trial = 0; trial < trials; ++trial) {
+      const std::vector<SizeSphere> spots = hopeful_spots(bad.tets, share);
+      if (spots.empty()) return false;
       if (refine_at(spots, bad)) return true;
-      spots = hopeful_spots(bad);
     }
     return false;
   }
 
   /// Around the bad tets; none if they are too many.
-  std::vector<SizeSphere> hopeful_spots(const std::vector<TetId>& bad) const {
-    constexpr double kHalf = 0.5;
-    if (bad.size() > kMost || double(bad.size()) > kFew * double(job_.mesh.tets.size())) return {};
+  std::vector<SizeSphere> hopeful_spots(const std::vector<TetId>& bad, double share) const {
+    const auto few = std::size_t(kFew * double(job_.mesh.tets.size()));
+    if (bad.size() > std::min(kMost, std::max(kFewAtLeast, few))) return {};
+    OperatorContext context(job_.mesh, job_.surface.working_model());
     std::vector<SizeSphere> spots;
     for (const TetId t : bad)
-      if (const auto spot = hopeful_spot(t, kHalf)) spots.push_back(*spot);
+      if (const auto spot = hopeful_spot(t, share))
+        if (share == kHalf || !is_too_sharp(context, t)) spots.push_back(*spot);
     return spots;
   }
 
@@ -212,17 +241,17 @@ class Refinement {
   }
 
   /// False if that was in vain: then it is taken back, and its failures are known.
-  bool refine_at(const std::vector<SizeSphere>& spots, const std::vector<TetId>& bad) {
+  bool refine_at(const std::vector<SizeSphere>& spots, const Bad& bad) {
     const Standard standard = this->standard();
-    const std::vector<Vec3> centers = centers_of(job_.mesh, bad);
+    const std::vector<Vec3> centers = centers_of(job_.mesh, bad.tets);
     Undo undo(job_, distance_);
-    job_.steps.timed("refining", [&] { lower_and_mend(spots, bad); });
+    job_.steps.timed("refining", [&] { lower_and_mend(spots, bad.tets); });
     distance_ = measure_();
-    const std::vector<TetId> left = tets_below(job_.mesh, aim_.quality);
+    const Bad left(job_.mesh, aim_.quality);
     const std::vector<Crossing> crossings = find_crossings(job_.mesh);
-    if (left.size() < bad.size() && standard.is_met(job_.mesh, distance_, crossings))
+    if (left.is_clearly_better_than(bad) && standard.is_met(job_.mesh, distance_, crossings))
       return accept(crossings);
-    add_failures(spots, centers, centers_of(job_.mesh, left),
+    add_failures(spots, centers, centers_of(job_.mesh, left.tets),
                  standard.failures(job_.mesh, distance_, crossings));
     std::move(undo)();
     return false;
@@ -290,11 +319,11 @@ void refine_all_or_nothing(Job& job, const Aim& aim, SurfaceDistance& distance,
 
 void refine_narrow_places(Job& job, SurfaceDistance& distance,
                           const std::function<SurfaceDistance()>& measure) {
-  constexpr int kTrials = 4;
+  constexpr int kTrials = 4, kFinerTrials = 2;
   const Freezes& freeze = job.r.freeze;
   if (job.keeping.stands || freeze.insert || freeze.surface || job.sizes.budget().binds()) return;
   const double steep = steepest_growth(job.r), slow = job.r.hgrad;
-  Refinement narrow(job, {kSoundQuality, steep, kTrials}, distance, measure);
+  Refinement narrow(job, {kSoundQuality, steep, kTrials, kFinerTrials}, distance, measure);
   narrow.detour();
   narrow.refine();
   narrow.refine_singly();
@@ -302,7 +331,7 @@ void refine_narrow_places(Job& job, SurfaceDistance& distance,
   if (job.r.uniform()) {
     // Worth the lengths that do not conform only if it is the end of it.
     if (slow < steep && !unsound_tets(job.mesh).empty())
-      refine_all_or_nothing(job, {kSoundQuality, slow, kTrials}, distance, measure);
+      refine_all_or_nothing(job, {kSoundQuality, slow, kTrials, 0}, distance, measure);
     return;
   }
   const std::size_t poor = tets_below(job.mesh, kPoorQuality).size();
@@ -310,7 +339,7 @@ void refine_narrow_places(Job& job, SurfaceDistance& distance,
       !unsound_tets(job.mesh).empty())
     return;
   constexpr int kOnce = 1;  // there is no place to leave out
-  refine_all_or_nothing(job, {kPoorQuality, slow, kOnce}, distance, measure);
+  refine_all_or_nothing(job, {kPoorQuality, slow, kOnce, 0}, distance, measure);
 }
 
 }  // namespace cavea

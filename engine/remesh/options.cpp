@@ -137,7 +137,8 @@ ResolvedOptions resolve(const Options& o, double box_diagonal, const SizeRange& 
   r.hgrad = o.hgrad.value_or(std::numeric_limits<double>::infinity());
   r.hgradreq = o.hgradreq;
   r.freeze = o.freeze;
-  constexpr double kFinest = 0.125;
+  // Grains, inclusions and balls leave places as narrow as 0.05 of a size that suits all else.
+  constexpr double kFinest = 0.03;
   if (o.hsiz) {
     r.hmin = r.hmax = r.smallest = r.largest = *o.hsiz;
     r.finest = kFinest * r.smallest;

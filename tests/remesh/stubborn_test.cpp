@@ -110,13 +110,15 @@ MeshData roof(double width) {
 }
 
 TEST(Stubborn, TetsAtANarrowStripBetweenCurvesAreNamedWithItsWidth) {
-  // Too narrow for an eighth of the wanted size, too.
-  const Report report = report_of(roof(0.002), uniform(0.05));
+  // Too narrow for the finest size, too, which is 0.03 of the wanted one, and too wide to be joined.
+  Options options = uniform(0.05);
+  options.hausd = 1e-5;
+  const Report report = report_of(roof(0.0002), options);
   ASSERT_FALSE(report.stubborn.empty());
   int narrow = 0;
   for (const StubbornTet& t : report.stubborn) {
     EXPECT_NE(t.reason, "");
-    narrow += says(t, "between feature curves is 0.002 wide, 0.04 of the wanted length");
+    narrow += says(t, "between feature curves is 0.0002 wide, 0.004 of the wanted length");
   }
   EXPECT_GT(narrow, 0);
 }
