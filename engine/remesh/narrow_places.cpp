@@ -38,6 +38,29 @@ constexpr double kHalf = 0.5;
 /// What is done in a spot changes what is beside it.
 constexpr double kAround = 2;
 
+/// A spot may add half of the tets, or so many to a small mesh: beyond that the end is not worth
+/// it. The same for all of them together where half the size is in vain. It happens where a large
+/// tet has a vertex of a far smaller size.
+constexpr double kMostAdded = 0.5, kMostAddedToSmall = 20'000;
+
+/// A forecast: sizes rise from a spot so fast that only what is near its surface is small; seen
+/// are 160 to 180 times the square.
+double tets_added_by(const SizeSphere& spot) {
+  const double widths = spot.radius / spot.size;
+  return 170 * widths * widths;
+}
+
+/// Those whose centers lie in another one add little to it.
+double tets_added_by(const std::vector<SizeSphere>& spots) {
+  double tets = 0;
+  for (auto spot = spots.begin(); spot != spots.end(); ++spot)
+    if (std::none_of(spots.begin(), spot, [&](const SizeSphere& s) {
+          return distance(s.center, spot->center) < s.radius;
+        }))
+      tets += tets_added_by(*spot);
+  return tets;
+}
+
 /// The last tets are often such by chance: between walls of 14 degrees those at the edge are good
 /// only if both walls have as many vertices along it. Where detours do not help, other sizes make
 /// another mesh there.
@@ -227,17 +250,23 @@ class Refinement {
     for (const TetId t : bad)
       if (const auto spot = hopeful_spot(t, share))
         if (share == kHalf || !is_too_sharp(context, t)) spots.push_back(*spot);
+    if (share < kHalf && tets_added_by(spots) > most_added()) return {};
     return spots;
   }
 
-  /// Around a bad tet, with so much of the sizes that are there; none where that has failed or
-  /// these are as small as they may be.
+  /// Around a bad tet, with so much of the sizes that are there; none where that has failed,
+  /// would add too many tets, or these are as small as they may be.
   std::optional<SizeSphere> hopeful_spot(TetId t, double share) const {
     const TetMesh& mesh = job_.mesh;
     SizeSphere spot = spot_over(mesh, centroid(mesh.corners(t)), mesh.tets[t]);
     if (has_failed(spot.center) || spot.size <= job_.r.finest) return {};
     spot.size = std::max(job_.r.finest, share * spot.size);
+    if (tets_added_by(spot) > most_added()) return {};
     return spot;
+  }
+
+  double most_added() const {
+    return std::max(kMostAddedToSmall, kMostAdded * double(job_.mesh.tets.size()));
   }
 
   /// False if that was in vain: then it is taken back, and its failures are known.
