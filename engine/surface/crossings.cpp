@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "cavea/base/ids_where.h"
@@ -15,6 +16,20 @@ namespace {
 /// Triangles a task, and so many neighbours in the tree that look for others together.
 constexpr std::size_t kGrain = 256, kTogether = 8;
 
+/// What is less deep, as a share of the largest coordinate, is no crossing: vertices on a plane, of
+/// sheets that touch there, lie within some rounding of it.
+constexpr double kRounding = 1e-12;
+
+/// Whether both ends of an edge are farther from the plane of a triangle than rounding brings them.
+bool is_deep(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
+  const Vec3 normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
+  double largest = 0;
+  for (const Vec3& x : t)
+    largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+  return std::min(std::abs(dot(normal, p - t[0])), std::abs(dot(normal, q - t[0]))) >
+         kRounding * largest;
+}
+
 /// Whether edge k of a triangle passes through the inside of one that has neither of its ends.
 bool passes(const PlacedTriangle& of, std::size_t k, const PlacedTriangle& t) {
   const std::size_t next = (k + 1) % 3;
@@ -25,7 +40,8 @@ bool passes(const PlacedTriangle& of, std::size_t k, const PlacedTriangle& t) {
   const int above = certain_side(a, b, c, p);
   if (above == 0 || certain_side(a, b, c, q) != -above) return false;
   const int turn = certain_side(p, q, a, b);
-  return turn != 0 && certain_side(p, q, b, c) == turn && certain_side(p, q, c, a) == turn;
+  return turn != 0 && certain_side(p, q, b, c) == turn && certain_side(p, q, c, a) == turn &&
+         is_deep(p, q, t.corners);
 }
 
 /// The middle of an edge of one triangle that passes through the other, if there is any.

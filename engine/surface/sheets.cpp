@@ -11,6 +11,10 @@ namespace {
 
 constexpr std::size_t kGrain = 64;
 
+/// Distance of sheets that touch, as a share of the largest coordinate: vertices on a plane lie
+/// within some rounding of it.
+constexpr double kRounding = 1e-12;
+
 std::vector<Box> boxes_of(std::span<const Sheets::Corners> triangles) {
   std::vector<Box> boxes(triangles.size());
   parallel_for(boxes.size(), [&](std::size_t t) {
@@ -48,6 +52,11 @@ Sheets::Sheets(std::vector<Corners> triangles, std::vector<std::array<std::int32
     if (!one_sided_[t]) of_triangle[t].add(-normals_[t]);
   });
   normals_of_node_ = tree_.node_boxes(of_triangle);
+  if (triangles_.empty()) return;
+  const Box& all = tree_.box_of(0);
+  const Vec3 largest = {std::max(-all.low.x, all.high.x), std::max(-all.low.y, all.high.y),
+                        std::max(-all.low.z, all.high.z)};
+  rounding2_ = square(kRounding) * norm2(largest);
 }
 
 bool Sheets::apart(std::size_t s, std::size_t t) const {
@@ -86,6 +95,7 @@ void Sheets::improve(std::size_t t, const Vec3& place, std::size_t s, const Faci
   const ClosestOnTriangle near = closest_on_triangle(place, a, b, c);
   if (!(near.distance2 < hit.distance2)) return;
   const Vec3 to = a + near.u * (b - a) + near.v * (c - a) - place;
+  if (!facing.touching && norm2(to) <= rounding2_) return;
   if (dot(to, facing.side * normals_[t]) >= facing.cone_cosine * norm(to))
     hit = {std::int32_t(s), near.distance2};
 }

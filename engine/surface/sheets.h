@@ -23,6 +23,7 @@ class Sheets {
     double cone_cosine = 0;     ///< of the angle between that way and the one to it, at least
     double normals_cosine = 0;  ///< of the angle between the two normals, at most, whichever way
                                 ///< those of two-sided triangles point
+    bool touching = true;       ///< whether what touches counts, which is on neither side
   };
   static constexpr double kNothing = std::numeric_limits<double>::infinity();
 
@@ -75,6 +76,7 @@ class Sheets {
   std::vector<char> one_sided_;
   std::vector<Vec3> normals_;
   BoxTree tree_;
+  double rounding2_ = 0;  ///< squared distance of sheets that touch
   /// Of all below each node, both ways for two-sided triangles.
   std::vector<Box> normals_of_node_;
 };

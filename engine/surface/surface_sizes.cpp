@@ -275,7 +275,8 @@ double SurfaceModel::thin_size(std::int32_t facet, const Vec3& place, double siz
   for (const double side : {-1.0, 1.0}) {
     if (size <= settings_.hmin) break;
     if (side > 0 && facet_exterior_[facet]) continue;
-    const Sheets::Facing facing{side, kCone, -kParallel};
+    // Volume has a thickness: a sheet that touches is that of another body.
+    const Sheets::Facing facing{side, kCone, -kParallel, false};
     const double t = sheets_->opposite(std::size_t(facet), place, facing, size / kThickness);
     size = std::min(size, kThickness * t);
   }

@@ -209,7 +209,8 @@ double SurfaceModel::hausd_of(std::int32_t reference) const {
 
 /// The tolerance of each facet: that of its reference, but no more than a share of the way to the
 /// next sheet of the exterior boundary across empty space, and the same for the bulge: so both
-/// sheets may bulge and deviate and never meet. Inside the volume, tets keep sheets apart.
+/// sheets may bulge and deviate and never meet. Inside the volume, tets keep sheets apart. Those
+/// that touch stay as they are as far as may be, but no size would keep them from meeting.
 void SurfaceModel::set_tolerances() {
   // Two sheets, each with its bulge and its deviation, and some for what lies between samples.
   constexpr double kShareOfGap = 0.2;
@@ -222,9 +223,11 @@ void SurfaceModel::set_tolerances() {
     return facet_exterior_[f] ? std::max(1.0, bulge) * facet_hausd_[f] / kShareOfGap : 0;
   });
   facet_tolerance_.resize(facets_.size());
+  facet_at_slit_.assign(facets_.size(), 0);
   vertex_bulge_.assign(points_.size(), kEndless);
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     const double hausd = facet_hausd_[f], room = std::max(kShareOfGap * gap[f], kLeast * hausd);
+    facet_at_slit_[f] = room == kLeast * hausd;
     facet_tolerance_[f] = std::min(hausd, room);
     for (std::int32_t v : facets_[f])
       vertex_bulge_[v] = std::min(vertex_bulge_[v], std::min(bulge * hausd, room));
@@ -239,7 +242,6 @@ void SurfaceModel::narrow_at_slits(double share) {
   // None that is wider was seen to close; and where round bodies touch, facets meet at a few
   // degrees.
   constexpr double kSlit = 2 * std::numbers::pi / 180;
-  facet_at_slit_.assign(facets_.size(), 0);
   for (const CurveEdge& c : curves_)
     for_each_pair_of_facets(c, [&](std::int32_t f, std::int32_t g) {
       if (!facet_exterior_[f] || !facet_exterior_[g]) return;
