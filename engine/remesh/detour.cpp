@@ -19,7 +19,6 @@
 #include "cavea/pass/cycle.h"
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/recipe.h"
-#include "cavea/remesh/standing.h"
 
 namespace cavea {
 namespace {
@@ -197,8 +196,7 @@ Detour::Detour(Job& job, TetId t, double quality) : job_(job), part_(part_around
   TetMesh& mesh = part_[0].mesh;
   const auto local = TetId(std::ranges::lower_bound(part_[0].tets, t) - part_[0].tets.begin());
   if (mesh.tets.size() > kMostTets) return;
-  ask_nothing(mesh);
-  ask_below(mesh, kPoorQuality);
+  ask_nothing(mesh);  // but what a step changes: all else was asked before
   const Search search(job, quality);
   // As many poor tets as before are not worth it.
   const std::int64_t before = poverty_of(mesh, quality).tets;

@@ -41,10 +41,10 @@ constexpr double kAround = 2;
 /// A spot may add half of the tets, or so many to a small mesh: beyond that the end is not worth
 /// it. The same for all of them together where half the size is in vain. It happens where a large
 /// tet has a vertex of a far smaller size.
-constexpr double kMostAdded = 0.5, kMostAddedToSmall = 20'000;
+constexpr double kMostAdded = 0.5, kMostAddedToSmall = 40'000;
 
 /// A forecast: sizes rise from a spot so fast that only what is near its surface is small; seen
-/// are 160 to 180 times the square.
+/// are 160 to 180 times the square, and less where spots are side by side.
 double tets_added_by(const SizeSphere& spot) {
   const double widths = spot.radius / spot.size;
   return 170 * widths * widths;

@@ -81,7 +81,7 @@ double sharpest_tip(OperatorContext& c, TetId t) {
     for_each_triangle(c.mesh, c.ball, [&](TriangleId id) {
       const Triangle& s = c.mesh.triangles[id];
       const std::size_t i = s.v[0] == v ? 0 : s.v[1] == v ? 1 : 2, j = (i + 1) % 3, k = (i + 2) % 3;
-      if (!(s.edge_tag[j] & s.edge_tag[k] & tag::kFeature)) return;
+      if (!(s.edge_tag[j] & tag::kFeature) || !(s.edge_tag[k] & tag::kFeature)) return;
       if (c.mesh.local_index(t, s.v[j]) == 4 && c.mesh.local_index(t, s.v[k]) == 4) return;
       const Vec3 a = normalized(c.point(s.v[j]) - c.point(v)),
                  b = normalized(c.point(s.v[k]) - c.point(v));
