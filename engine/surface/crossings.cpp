@@ -20,14 +20,22 @@ constexpr std::size_t kGrain = 256, kTogether = 8;
 /// sheets that touch there, lie within some rounding of it.
 constexpr double kRounding = 1e-12;
 
-/// Whether both ends of an edge are farther from the plane of a triangle than rounding brings them.
+/// Whether an edge that passes through a triangle is there farther from its border, and has ends
+/// farther from its plane, than rounding brings them.
 bool is_deep(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
-  const Vec3 normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
   double largest = 0;
   for (const Vec3& x : t)
     largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
-  return std::min(std::abs(dot(normal, p - t[0])), std::abs(dot(normal, q - t[0]))) >
-         kRounding * largest;
+  const double rounding = kRounding * largest;
+  const Vec3 normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
+  const double above = dot(normal, p - t[0]), below = dot(normal, q - t[0]);
+  if (std::min(std::abs(above), std::abs(below)) <= rounding) return false;
+  const Vec3 at = p + above / (above - below) * (q - p);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 inward = normalized(cross(normal, t[(k + 1) % 3] - t[k]));
+    if (dot(inward, at - t[k]) <= rounding) return false;
+  }
+  return true;
 }
 
 /// Whether edge k of a triangle passes through the inside of one that has neither of its ends.

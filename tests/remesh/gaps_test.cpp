@@ -77,6 +77,43 @@ TEST(Gaps, ThinLayersAreMeshedWell) {
   }
 }
 
+/// A cube on which a smaller one stands, with vertices of its own, the whole turned so that the
+/// planes in which they touch are known to rounding only.
+MeshData cubes_in_contact(double angle) {
+  MeshData data = kuhn_cube(4);
+  const MeshData other = kuhn_cube(3);
+  const auto shift = std::int32_t(data.vertices.size());
+  for (const Vec3& p : other.vertices) data.vertices.push_back(0.6 * p + Vec3{1, 0.17, 0.23});
+  data.vertex_refs.resize(data.vertices.size());
+  for (auto t : other.tets) {
+    for (auto& v : t) v += shift;
+    data.tets.push_back(t);
+  }
+  data.tet_refs.resize(data.tets.size(), 2);
+  const double c = std::cos(angle), s = std::sin(angle);
+  return mapped(data, [&](const Vec3& p) {
+    const double x = c * p.x - s * p.y, y = s * p.x + c * p.y;
+    return Vec3{x, c * y - s * p.z, s * y + c * p.z};
+  });
+}
+
+/// What touches is neither a wall of no thickness nor a gap that sizes must resolve.
+TEST(Gaps, BodiesInContactNeedNoSmallSizes) {
+  for (const double angle : {0.0, 0.3, 1.1})
+    for (const bool faceted : {false, true}) {
+      SCOPED_TRACE(testing::Message() << "angle " << angle << ", faceted " << faceted);
+      Options options;
+      options.faceted = faceted;
+      TetMesh mesh = built(cubes_in_contact(angle));
+      const Report report = remesh(mesh, {}, options);
+      expect_sound(mesh);
+      EXPECT_LE(report.after.counts.tets, 10 * report.before.counts.tets);
+      EXPECT_GE(report.after.quality.worst, 0.3);
+      EXPECT_NEAR(report.after.counts.volume, report.before.counts.volume, 1e-12);
+      EXPECT_TRUE(find_crossings(mesh).empty());
+    }
+}
+
 /// Two plates, joined at one edge, with a thin and bent slit between them.
 MeshData bent_slit(std::uint64_t seed, double gap) {
   Random random(seed);
