@@ -199,6 +199,17 @@ constexpr bool is_essential(SectionId id) {
   return id == SectionId::vertices || id == SectionId::tets;
 }
 
+/// The names of the sections of a file, as far as a message has room for them.
+template <class File>
+std::string names_of_sections(const File& file) {
+  constexpr std::size_t kMost = 8;
+  const auto& sections = file.sections();
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kMost, sections.size()); ++i)
+    names += (i > 0 ? ", " : "") + std::string(sections[i].name);
+  return sections.empty() ? "none" : sections.size() > kMost ? names + ", ..." : names;
+}
+
 /// Refuses a mesh whose main sections are missing or empty, or that gives a section twice.
 template <class File>
 void check_sections(const File& file) {
@@ -213,7 +224,8 @@ void check_sections(const File& file) {
   }
   for (const Keyword& k : keywords())
     if (is_essential(k.id) && !seen[std::size_t(k.id)])
-      file.fail_whole(fmt::format("the file has no section {}", k.name));
+      file.fail_whole(
+          fmt::format("the file has no section {}; it has {}", k.name, names_of_sections(file)));
 }
 
 /// mmg3d 5.8 writes wrong tangent indices into binary files, so they alone are no reason to refuse

@@ -195,7 +195,7 @@ constexpr BadText kBadTexts[] = {
     {"NoVertices", "Vertices", "Verts", "the file has no section Vertices"},
     {"ZeroVertices", "Vertices\n5\n0 0 0 1\n1 0 0 2\n0 1 0 3\n0 0 1 4\n1 1 1 5\n", "Vertices\n0\n",
      "line 3: the file has no Vertices"},
-    {"NoTetrahedra", "Tetrahedra", "Tets", "the file has no section Tetrahedra"},
+    {"NoTetrahedra", "Tetrahedra", "Tets", "the file has no section Tetrahedra; it has Vertices, "},
     {"ZeroTetrahedra", "Tetrahedra\n2\n1 2 3 4 7\n2 3 4 5 8\n", "Tetrahedra\n0\n",
      "line 10: the file has no Tetrahedra"},
     {"Twice", "Corners\n1\n1\n", "Corners\n1\n1\nCorners\n1\n1\n",
