@@ -14,12 +14,15 @@
 namespace cavea {
 namespace {
 
-/// What is left of the poor tets there is mended like all, and may leave more to join.
+/// What is changed is mended like all, and may leave more to join.
 void join_and_mend(Job& job, bool surface_frozen, const std::vector<FailedPlace>& failed,
                    std::optional<Before>& before) {
   constexpr int kRounds = 5;
   std::vector<Phase> phases = poor_recipe(job.r);
-  for (Phase& p : phases) p.cycle.limits.surface_frozen |= surface_frozen;
+  for (Phase& p : phases) {
+    p.cycle.limits.surface_frozen |= surface_frozen;
+    p.ask_below = p.cycle.ask_below = 0;  // all but what joining changes was asked before
+  }
   const auto keep_first = [&] {
     if (!before) before.emplace(job);
   };
