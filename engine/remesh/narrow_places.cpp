@@ -142,8 +142,10 @@ class Refinement {
   void refine() {
     double share = kHalf;
     for (int k = 0; k < kHalvings; ++k) {
+      const Bad bad(job_.mesh, aim_.quality);
+      if (bad.tets.empty()) return;
       failed_.clear();
-      share = refine_once(share) ? kHalf : kHalf * share;
+      share = refine_once(bad, share) ? kHalf : kHalf * share;
     }
   }
 
@@ -230,8 +232,7 @@ class Refinement {
   }
 
   /// \return whether that made the bad tets fewer or better
-  bool refine_once(double share) {
-    const Bad bad(job_.mesh, aim_.quality);
+  bool refine_once(const Bad& bad, double share) {
     const int trials = share == kHalf ? aim_.trials : aim_.finer_trials;
     for (int trial = 0; trial < trials; ++trial) {
       const std::vector<SizeSphere> spots = hopeful_spots(bad.tets, share);

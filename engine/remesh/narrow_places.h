@@ -12,9 +12,10 @@ namespace cavea {
 /// angles of the domain, less is tried at once. Each time all is taken back at the tets that this
 /// does not make fewer, or the worst of them clearly better, and everywhere where the surface would
 /// be farther from the ideal one than it may be or was, pass through itself, or the worst tet be
-/// worse. Uniform sizes give way there, too, down to ResolvedOptions::finest, as in repairs. What is not sound first, and what is left
-/// then, is led out by detours (see Detour), one tet after the other. \param distance of the mesh
-/// from the ideal surface, kept in step by measure(), which may repair
+/// worse. Uniform sizes give way there, too, down to ResolvedOptions::finest, as in repairs. What
+/// is not sound first, and what is left then, is led out by detours (see Detour), one tet after the
+/// other. \param distance of the mesh from the ideal surface, kept in step by measure(), which may
+/// repair
 void refine_narrow_places(Job& job, SurfaceDistance& distance,
                           const std::function<SurfaceDistance()>& measure);
 

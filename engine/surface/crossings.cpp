@@ -9,6 +9,7 @@
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/box_tree.h"
 #include "cavea/geometry/predicates.h"
+#include "cavea/surface/touching.h"
 
 namespace cavea {
 namespace {
@@ -16,17 +17,13 @@ namespace {
 /// Triangles a task, and so many neighbours in the tree that look for others together.
 constexpr std::size_t kGrain = 256, kTogether = 8;
 
-/// What is less deep, as a share of the largest coordinate, is no crossing: vertices on a plane, of
-/// sheets that touch there, lie within some rounding of it.
-constexpr double kRounding = 1e-12;
-
 /// Whether an edge that passes through a triangle is there farther from its border, and has ends
-/// farther from its plane, than rounding brings them.
+/// farther from its plane, than those of sheets that only touch.
 bool is_deep(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
   double largest = 0;
   for (const Vec3& x : t)
     largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
-  const double rounding = kRounding * largest;
+  const double rounding = kTouching * largest;
   const Vec3 normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
   const double above = dot(normal, p - t[0]), below = dot(normal, q - t[0]);
   if (std::min(std::abs(above), std::abs(below)) <= rounding) return false;

@@ -5,15 +5,12 @@
 
 #include "cavea/base/parallel.h"
 #include "cavea/geometry/closest.h"
+#include "cavea/surface/touching.h"
 
 namespace cavea {
 namespace {
 
 constexpr std::size_t kGrain = 64;
-
-/// Distance of sheets that touch, as a share of the largest coordinate: vertices on a plane lie
-/// within some rounding of it.
-constexpr double kRounding = 1e-12;
 
 std::vector<Box> boxes_of(std::span<const Sheets::Corners> triangles) {
   std::vector<Box> boxes(triangles.size());
@@ -56,7 +53,7 @@ Sheets::Sheets(std::vector<Corners> triangles, std::vector<std::array<std::int32
   const Box& all = tree_.box_of(0);
   const Vec3 largest = {std::max(-all.low.x, all.high.x), std::max(-all.low.y, all.high.y),
                         std::max(-all.low.z, all.high.z)};
-  rounding2_ = square(kRounding) * norm2(largest);
+  rounding2_ = square(kTouching) * norm2(largest);
 }
 
 bool Sheets::apart(std::size_t s, std::size_t t) const {
