@@ -1,6 +1,7 @@
 #include "cavea/remesh/mending.h"
 
 #include <cmath>
+#include <utility>
 
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/rounds.h"
@@ -11,8 +12,9 @@ namespace cavea {
 void mend_poor(Job& job) {
   constexpr int kMends = 5;
   if (job.keeping.leaves_all()) return;
-  const std::vector<Phase> phases =
-      job.keeping.stands ? holding_good(poor_recipe(job.r)) : poor_recipe(job.r);
+  std::vector<Phase> phases = poor_recipe(job.r);
+  if (job.keeping.stands) phases = holding_good(std::move(phases));
+  for (Phase& p : phases) p.ask_below = kPoorQuality;  // each offers more than those before
   std::int64_t poor = count_poor(job.mesh);
   for (int k = 0; k < kMends && poor > 0; ++k) {
     ask_nothing(job.mesh);

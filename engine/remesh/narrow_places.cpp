@@ -298,17 +298,22 @@ class Refinement {
     mend_near(spots);
   }
 
-  /// Of the poor tets all others were asked before.
+  /// All other poor tets were asked before.
   void mend_near(std::vector<SizeSphere> spots) {
     constexpr int kMends = 3;
     for (SizeSphere& s : spots) s.radius *= kAround;
     const SizeField near = field_inside(std::move(spots));
     const TetMesh& mesh = job_.mesh;
+    const std::vector<Phase> phases = poor_recipe(job_.r);
     for (int k = 0; k < kMends; ++k) {
       ask_nothing(job_.mesh);
-      ask_poor(job_.mesh, [&](TetId t) { return std::isfinite(near(centroid(mesh.corners(t)))); });
-      if (is_nothing_asked(mesh)) return;
-      run_phases(job_, poor_recipe(job_.r));
+      for (const Phase& phase : phases) {
+        ask_poor(job_.mesh,
+                 [&](TetId t) { return std::isfinite(near(centroid(mesh.corners(t)))); });
+        if (is_nothing_asked(mesh)) return;
+        run_phase(job_, phase);
+      }
+      run_residual_of(job_, phases.back());
     }
   }
 

@@ -163,7 +163,6 @@ std::vector<Phase> poor_recipe(const ResolvedOptions& o) {
   loose.settled = loose.cycle.settled = 0;
   loose.cycle.repair_below = 0.2;
   std::vector<Phase> phases = mending_recipe(o);
-  for (Phase& p : phases) p.ask_below = kPoorQuality;
   phases.insert(phases.begin(), loose);
   return phases;
 }
