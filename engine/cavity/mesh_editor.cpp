@@ -66,6 +66,7 @@ MeshEditor::Face& MeshEditor::slot(VertexId a, VertexId b, VertexId c) {
     face.key = key;
     face.epoch = epoch_;
     face.open = false;
+    face.uses = 0;
   }
   return face;
 }
@@ -85,6 +86,11 @@ void MeshEditor::open_face(TetId t, int f, Face& face) {
 void MeshEditor::mark_leaving(const Cavity& cavity) {
   for (TetId t : cavity.removed_tets) mesh_.tet_flags[t] |= kLeaving;
   for (TriangleId t : cavity.removed_triangles) mesh_.triangles[t].tags |= kLeavingTriangle;
+}
+
+void MeshEditor::unmark_leaving(const Cavity& cavity) {
+  for (TetId t : cavity.removed_tets) mesh_.tet_flags[t] &= std::uint8_t(~kLeaving);
+  for (TriangleId t : cavity.removed_triangles) mesh_.triangles[t].tags &= Tag(~kLeavingTriangle);
 }
 
 /// Whether what is behind a face of a removed tet stays.
@@ -281,6 +287,49 @@ void MeshEditor::clear_table(const Cavity& cavity) {
   if (table_.size() < size) table_.assign(size, {}), epoch_ = 0;
   if (++epoch_ == 0) table_.assign(table_.size(), {}), epoch_ = 1;
   mask_ = size - 1;
+}
+
+/// Others add no face that a triangle may have.
+bool MeshEditor::is_at_surface(const Cavity& cavity) const {
+  const VertexId fresh = cavity.inserts_vertex ? next_vertex() : kNone;
+  const auto on_surface = [&](VertexId v) {
+    return ((v == fresh ? cavity.vertex.tags : mesh_.vertex_tags[v]) & tag::kSurface) != 0;
+  };
+  return !cavity.triangles.empty() || std::ranges::any_of(cavity.tets, [&](const NewTet& n) {
+    return std::ranges::count_if(n.v, on_surface) > 2;
+  });
+}
+
+/// Once what leaves is marked.
+bool MeshEditor::has_closed_faces(const Cavity& cavity) {
+  std::int64_t open = 0;
+  const auto use = [&](VertexId a, VertexId b, VertexId c, int most) {
+    const int uses = ++slot(a, b, c).uses;
+    open += uses == 1 ? 1 : -1;
+    return uses <= most;
+  };
+  const auto use_face = [&](const std::array<VertexId, 4>& v, int f, int most) {
+    const int* fv = kFaceVertices[f];
+    return use(v[fv[0]], v[fv[1]], v[fv[2]], most);
+  };
+  for (const TetId t : cavity.removed_tets)
+    for (int f = 0; f < 4; ++f)
+      if (stays(mesh_.links[t][f]) && !use_face(mesh_.tets[t], f, 1)) return false;
+  for (const Triangle& t : cavity.triangles)  // those of interfaces have a tet on both sides
+    if (t.sides[1].is_unset() && !use(t.v[0], t.v[1], t.v[2], 2)) return false;
+  for (const NewTet& n : cavity.tets)
+    for (int f = 0; f < 4; ++f)
+      if (!use_face(n.v, f, 2)) return false;
+  return open == 0;
+}
+
+bool MeshEditor::closes(const Cavity& cavity) {
+  if (!cavity.links.empty() || !is_at_surface(cavity)) return true;
+  clear_table(cavity);
+  mark_leaving(cavity);
+  const bool closes = has_closed_faces(cavity);
+  unmark_leaving(cavity);
+  return closes;
 }
 
 void MeshEditor::commit(const Cavity& cavity) {

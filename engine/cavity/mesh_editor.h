@@ -36,6 +36,11 @@ class MeshEditor {
   /// Id that the next inserted vertex will get.
   VertexId next_vertex() const;
 
+  /// Whether each face of the new tets is one of exactly two, or a new triangle: a surface that
+  /// passes through itself may have a triangle and a face inside with the same vertices, which
+  /// positive volumes do not see.
+  bool closes(const Cavity& cavity);
+
   /// Replaces the removed entities of the cavity by the new ones. New tets are flagged kAskAll.
   /// \throw InternalError when the cavity does not close: the mesh is then broken.
   void commit(const Cavity& cavity);
@@ -57,11 +62,15 @@ class MeshEditor {
     FaceLink link;         ///< a tet face to connect, a triangle to attach, or a cut
     std::int8_t side = 0;  ///< of the triangle, where the link is one; -1: a new triangle
     bool open = false;
+    std::int8_t uses = 0;  ///< counted by closes()
   };
 
+  bool is_at_surface(const Cavity& cavity) const;
+  bool has_closed_faces(const Cavity& cavity);
   void clear_table(const Cavity& cavity);
   Face& slot(VertexId a, VertexId b, VertexId c);
   void mark_leaving(const Cavity& cavity);
+  void unmark_leaving(const Cavity& cavity);
   bool stays(FaceLink link) const;
   void open_face(TetId t, int f, Face& face);
   void open_hole(const Cavity& cavity);

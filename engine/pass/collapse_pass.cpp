@@ -125,7 +125,7 @@ class CollapsePass {
     gather_edge(spoke);
     const Verdict v = edge_collapse_of_ball(s_.context, false, s_.cavity);
     if (v == Verdict::kFrozen) s_.block(spoke.tet);
-    if (!s_.count(Operator::kEdgeCollapse, v)) return false;
+    if (!s_.takes(Operator::kEdgeCollapse, v)) return false;
     s_.commit();
     return true;
   }

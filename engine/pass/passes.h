@@ -15,6 +15,11 @@ struct PartState {
     result.verdicts.add(o, v);
     return v == Verdict::kAccept;
   }
+  /// The same for one that has filled the cavity, which is refused if it does not close.
+  bool takes(Operator o, Verdict v) {
+    if (v == Verdict::kAccept && !editor.closes(cavity)) v = Verdict::kBreaksTopology;
+    return count(o, v);
+  }
   bool at_interface(VertexId v) const { return context.tags(v) & tag::kFrozen; }
   /// To be called when an operator has refused the tet because the interface is in the way, which
   /// will move. Required edges, which operators refuse alike, stay.

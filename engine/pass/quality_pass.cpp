@@ -148,7 +148,7 @@ class QualityQueue {
     const Verdict v = edge_swap(s_.context, s_.cavity);
     // The edge is free: the one on the surface that would come is not.
     if (v == Verdict::kFrozen && is_at_interface(t)) s_.block(t);
-    if (!s_.count(Operator::kEdgeSwap, v)) return false;
+    if (!s_.takes(Operator::kEdgeSwap, v)) return false;
     committed();
     return true;
   }
@@ -158,7 +158,7 @@ class QualityQueue {
     if (other.is_cut()) s_.block(t);
     if (!other.is_tet()) return false;
     if (asked_[other.tet()] > std::max(changed_[t], changed_[other.tet()])) return false;
-    if (!s_.count(Operator::kFaceSwap, face_swap(s_.context, t, f, s_.cavity))) return false;
+    if (!s_.takes(Operator::kFaceSwap, face_swap(s_.context, t, f, s_.cavity))) return false;
     committed();
     return true;
   }
@@ -167,7 +167,7 @@ class QualityQueue {
     for (const auto& e : kEdgeVertices)
       for (int way = 0; way < 2; ++way) {
         gather_shell(m_, t, e[way], e[1 - way], s_.context.shell);
-        if (!s_.count(Operator::kEdgeCollapse, edge_collapse(s_.context, true, s_.cavity)))
+        if (!s_.takes(Operator::kEdgeCollapse, edge_collapse(s_.context, true, s_.cavity)))
           continue;
         committed();
         return true;
@@ -177,7 +177,7 @@ class QualityQueue {
 
   bool reconnect_for_quality(TetId t) {
     const Verdict v = reconnect(s_.context, t, s_.settings.collapse, s_.cavity);
-    if (!s_.count(Operator::kReconnect, v)) return false;
+    if (!s_.takes(Operator::kReconnect, v)) return false;
     committed();
     return true;
   }
@@ -186,7 +186,7 @@ class QualityQueue {
     for (const auto& e : kEdgeVertices) {
       gather_shell(m_, t, e[0], e[1], s_.context.shell);
       const Verdict v = edge_star(s_.context, s_.editor.next_vertex(), s_.cavity);
-      if (!s_.count(Operator::kEdgeStar, v)) continue;
+      if (!s_.takes(Operator::kEdgeStar, v)) continue;
       committed();
       return true;
     }

@@ -116,7 +116,7 @@ std::int64_t split_pass(PartState& s) {
     const Verdict v = edge_split(s.context, s.editor.next_vertex(), s.cavity, task.for_fit);
     if (v == Verdict::kFrozen && s.at_interface(task.a) && s.at_interface(task.b))
       s.block(task.tet);
-    if (!s.count(Operator::kEdgeSplit, v)) return Outcome::kRefused;
+    if (!s.takes(Operator::kEdgeSplit, v)) return Outcome::kRefused;
     s.commit();
     return Outcome::kDone;
   });

@@ -73,9 +73,9 @@ class SurfacePass {
     gather_shell(m, side.tet(), m.local_index(side.tet(), task.a),
                  m.local_index(side.tet(), task.b), s_.context.shell);
     Verdict v = insert_(s_.editor.next_vertex(), s_.cavity);
-    if (!s_.count(Operator::kSurfaceInsert, v)) {
+    if (!s_.takes(Operator::kSurfaceInsert, v)) {
       v = edge_split(s_.context, s_.editor.next_vertex(), s_.cavity);
-      if (!s_.count(Operator::kEdgeSplit, v)) return Outcome::kRefused;
+      if (!s_.takes(Operator::kEdgeSplit, v)) return Outcome::kRefused;
     }
     s_.commit();
     for (const TetId created : s_.editor.created())

@@ -118,7 +118,7 @@ std::optional<TetMesh> after_step(const TetMesh& mesh, const Step& step,
     Cavity cavity;
     const Verdict verdict = step.split ? edge_split(context, editor.next_vertex(), cavity)
                                        : edge_collapse(context, false, cavity);
-    if (verdict != Verdict::kAccept) return {};
+    if (verdict != Verdict::kAccept || !editor.closes(cavity)) return {};
     editor.commit(cavity);
   }
   run_cycle(result, surface, mending);

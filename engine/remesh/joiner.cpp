@@ -43,8 +43,8 @@ bool Joiner::join_at(TetId t) {
   add_candidates(junctions_of_vertices(mesh_, t), 0, found);
   add_candidates(junctions_in_triangles(context_, t), 1, found);
   std::ranges::stable_sort(found, {}, &Candidate::rank);
-  const auto best =
-      std::ranges::find_if(found, [&](const Candidate& c) { return !crosses(c.cavity); });
+  const auto best = std::ranges::find_if(
+      found, [&](const Candidate& c) { return editor_.closes(c.cavity) && !crosses(c.cavity); });
   if (best == found.end()) return false;
   commit(*best);
   return true;

@@ -12,9 +12,8 @@ namespace cavea {
 void mend_poor(Job& job) {
   constexpr int kMends = 5;
   if (job.keeping.leaves_all()) return;
-  std::vector<Phase> phases = poor_recipe(job.r);
+  std::vector<Phase> phases = asking_poor(poor_recipe(job.r));
   if (job.keeping.stands) phases = holding_good(std::move(phases));
-  for (Phase& p : phases) p.ask_below = kPoorQuality;  // each offers more than those before
   std::int64_t poor = count_poor(job.mesh);
   for (int k = 0; k < kMends && poor > 0; ++k) {
     ask_nothing(job.mesh);

@@ -167,6 +167,11 @@ std::vector<Phase> poor_recipe(const ResolvedOptions& o) {
   return phases;
 }
 
+std::vector<Phase> asking_poor(std::vector<Phase> phases) {
+  for (Phase& p : phases) p.ask_below = kPoorQuality;
+  return phases;
+}
+
 CycleSettings detour_cycle(const ResolvedOptions& o) {
   CycleSettings first = rough(o).cycle, last = polish(o).cycle;
   first.repair_below = 0.2;

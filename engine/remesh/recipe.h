@@ -68,6 +68,10 @@ std::vector<Phase> standing_recipe(const ResolvedOptions& options);
 /// The same for poor tets that the limits of those phases hold fast: rough ones come first.
 std::vector<Phase> poor_recipe(const ResolvedOptions& options);
 
+/// The same phases, but each asks all poor tets of the mesh, since it offers them more than those
+/// before.
+std::vector<Phase> asking_poor(std::vector<Phase> phases);
+
 /// Cycles that mend what one operation out of the way has left: rough ones, then polish, with the
 /// lengths of rough, lest it is undone.
 CycleSettings detour_cycle(const ResolvedOptions& options);

@@ -25,7 +25,7 @@ TEST(Recipe, WhatAPhaseOffersFirstItAsksAgain) {
 }
 
 TEST(Recipe, PoorTetsAreAskedByEachPhaseThatMendsThem) {
-  const std::vector<Phase> phases = poor_recipe({});
+  const std::vector<Phase> phases = asking_poor(poor_recipe({}));
   for (std::size_t i = 1; i < phases.size(); ++i) EXPECT_GE(phases[i].ask_below, kPoorQuality);
 }
 
