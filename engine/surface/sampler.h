@@ -63,6 +63,7 @@ struct Sampled {
 ///   at(t, u, v)                       a place of the triangle
 ///   bound(t, block, near, measured)   bounds, or exact distances, of a block of places
 ///   exact(t, x, from, small)          the distance of one; if at most `small`, a bound will do
+///   kNearLimit                        between samples so many hausd away there may be one beyond 1
 /// None uses what it found for another triangle: which that is depends on the threads.
 template <class Side>
 class Sampler {
@@ -94,8 +95,6 @@ class Sampler {
  private:
   /// Triangles a task: their cost differs by their samples.
   static constexpr std::size_t kGrain = 32;
-  /// Between the samples of a triangle that are so many hausd away there may be one beyond 1.
-  static constexpr double kNearLimit = 0.75;
 
   /// What is not beyond these need not be exact.
   struct Floor {
@@ -241,7 +240,7 @@ class Sampler {
         s.add_bound(measured[i], least_hausd_);
     s.exact = exact;
     s.intervals = lattice.intervals();
-    if (exact && s.worst > kNearLimit)
+    if (exact && s.worst > Side::kNearLimit)
       for (const Lattice::Place& peak : peaks(lattice, measured, s.worst))
         climb(t, peak, {0.5 / lattice.intervals(), 0.5 / lattice.rows()}, scratch, s);
     const Corners& k = triangles_[t];
@@ -314,7 +313,7 @@ class Sampler {
   void make_exact_what_matters(std::vector<Sampled>& samples) const {
     // After each batch those that cannot be farther are left out: the first ones tell most.
     constexpr std::size_t kFirstBatch = 64, kMostInBatch = 1024;
-    const double always = std::min(kNearLimit, sampling_.most);
+    const double always = std::min(Side::kNearLimit, sampling_.most);
     double max = -1, worst = -1;
     std::vector<std::size_t> open;
     for (std::size_t t = 0; t < samples.size(); ++t)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numbers>
 #include <random>
 
 #include "cavea/base/parallel.h"
@@ -92,6 +93,26 @@ TEST(SurfaceDistance, IsFoundBetweenSamples) {
     const SurfaceDistance fine = measure_surface_distance(finer, cube.model, kStep / 2);
     const SurfaceDistance coarse = measure_surface_distance(finer, cube.model, 12 * kStep);
     EXPECT_GT(coarse.model_to_out.max, 0.96 * fine.model_to_out.max);
+  }
+}
+
+/// As where a blade's fold was cut: the samples beside it are 0.74 of the tolerance away.
+TEST(SurfaceDistance, ANotchInAnEdgeIsFoundBetweenSamplesThatAreNear) {
+  constexpr double kDepth = 0.01, kHausd = kDepth / 1.11, kModelStep = std::numbers::sqrt2 / 36;
+  TetMesh cube = build(test::kuhn_cube(1)).mesh;
+  classify_features(cube, {});
+  const SurfaceModel model(cube, {0.001, 0.5, kHausd, 0});
+  const TetMesh whole = build(test::kuhn_cube(24)).mesh;
+  for (int k = 3; k < 24; k += 2) {
+    SCOPED_TRACE(k);
+    TetMesh notched = whole;
+    for (Vec3& p : notched.points)
+      if (distance(p, {k / 24., 0, 1}) < 1e-9)
+        p = p + kDepth / std::numbers::sqrt2 * Vec3{0, 1, -1};
+    DistanceMeter meter(model, {{0.1 * kModelStep, 1.001 * kModelStep}, 0.95, 0.5});
+    const SurfaceDistance d = meter.measure(notched);
+    EXPECT_GT(d.model_to_out.worst, 1.05);
+    EXPECT_FALSE(d.far_facets.empty());
   }
 }
 
