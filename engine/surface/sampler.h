@@ -276,13 +276,16 @@ class Sampler {
   void climb(std::size_t t, Lattice::Place peak, Lattice::Place step, Scratch& scratch,
              Sampled& s) const {
     constexpr int kMostRings = 8, kHalvings = 4;
-    constexpr int kDirections[][2] = {{0, 0}, {1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {-1, 0}};
+    constexpr double kOnEdge = 1e-12;  // rounding of what is on the border of the triangle
     std::vector<Lattice::Place> places;
     for (int ring = 0, halvings = 0; ring < kMostRings && halvings < kHalvings; ++ring) {
       places.clear();
-      for (const auto& [i, j] : kDirections) {
-        const Lattice::Place p{peak.u + i * step.u, peak.v + j * step.v};
-        if (p.u >= 0 && p.v >= 0 && p.u + p.v <= 1) places.push_back(p);
+      // Along rows, and along both edges that lead from these to the apex.
+      const Lattice::Place ways[] = {{0, 0},       {step.u, 0},       {-step.u, 0},     {0, step.v},
+                                     {0, -step.v}, {-step.v, step.v}, {step.v, -step.v}};
+      for (const Lattice::Place& way : ways) {
+        const Lattice::Place p{peak.u + way.u, peak.v + way.v};
+        if (p.u >= -kOnEdge && p.v >= -kOnEdge && p.u + p.v <= 1 + kOnEdge) places.push_back(p);
       }
       if (places.empty()) return;
       const std::size_t highest = look_at(t, places, scratch, s);

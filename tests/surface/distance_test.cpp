@@ -96,20 +96,22 @@ TEST(SurfaceDistance, IsFoundBetweenSamples) {
   }
 }
 
-/// As where a blade's fold was cut: the samples beside it are 0.74 of the tolerance away.
+/// As where a blade's fold was cut. The samples beside the notch are 0.67 (k = 6, 18) and 0.89 of
+/// the tolerance away, and on an edge that leads to the apex of their lattice.
 TEST(SurfaceDistance, ANotchInAnEdgeIsFoundBetweenSamplesThatAreNear) {
-  constexpr double kDepth = 0.01, kHausd = kDepth / 1.11, kModelStep = std::numbers::sqrt2 / 36;
+  constexpr double kDepth = 0.01, kFarthest = 0.9724 * kDepth;  // of the edge, from the notch
+  constexpr double kHausd = kFarthest / 1.11, kStep = 1.001 * std::numbers::sqrt2 / 30;
+  const TetMesh whole = build(test::kuhn_cube(24)).mesh;
   TetMesh cube = build(test::kuhn_cube(1)).mesh;
   classify_features(cube, {});
-  const SurfaceModel model(cube, {0.001, 0.5, kHausd, 0});
-  const TetMesh whole = build(test::kuhn_cube(24)).mesh;
-  for (int k = 3; k < 24; k += 2) {
+  const SurfaceModel model(cube, {kHausd, kHausd, 0.001, 10});
+  for (const int k : {3, 6, 18, 21}) {
     SCOPED_TRACE(k);
     TetMesh notched = whole;
     for (Vec3& p : notched.points)
       if (distance(p, {k / 24., 0, 1}) < 1e-9)
         p = p + kDepth / std::numbers::sqrt2 * Vec3{0, 1, -1};
-    DistanceMeter meter(model, {{0.1 * kModelStep, 1.001 * kModelStep}, 0.95, 0.5});
+    DistanceMeter meter(model, {{0.1 * kStep, kStep}, 0.95, 0.5});
     const SurfaceDistance d = meter.measure(notched);
     EXPECT_GT(d.model_to_out.worst, 1.05);
     EXPECT_FALSE(d.far_facets.empty());
