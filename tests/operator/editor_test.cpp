@@ -42,6 +42,45 @@ TEST(MeshEditor, RefusesACavityThatDoesNotClose) {
   }
 }
 
+/// A stage whose cavity is the split of an edge of the surface.
+void split_on_surface(Stage& stage) {
+  for (const Edge& e : edges_of(stage.mesh))
+    if (stage.find_edge(e[0], e[1]) && stage.context.shell.on_surface() &&
+        stage.split() == Verdict::kAccept)
+      return;
+  FAIL() << "no edge of the surface could be split";
+}
+
+TEST(MeshEditor, TellsOfACavityAtTheSurfaceWhetherItCloses) {
+  Stage stage(kuhn_cube(2));
+  split_on_surface(stage);
+  const Cavity whole = stage.cavity;
+  const TetMesh before = stage.mesh;
+  EXPECT_TRUE(stage.editor.closes(whole));
+  const auto expect_open = [&](const char* what, auto&& change) {
+    SCOPED_TRACE(what);
+    Cavity cavity = whole;
+    change(cavity);
+    EXPECT_FALSE(stage.editor.closes(cavity));
+  };
+  expect_open("a new tet is missing", [](Cavity& c) { c.tets.pop_back(); });
+  expect_open("a new triangle is missing", [](Cavity& c) { c.triangles.pop_back(); });
+  expect_open("a tet is not removed", [](Cavity& c) { c.removed_tets.pop_back(); });
+  // As two faces of the same vertices: each face is used an even number of times.
+  expect_open("a new tet is there three times", [](Cavity& c) {
+    const NewTet t = c.tets.front();
+    c.tets.insert(c.tets.end(), 2, t);
+  });
+  expect_open("a tet is removed twice, and two more are new", [](Cavity& c) {
+    c.removed_tets.push_back(c.removed_tets.front());
+    const NewTet t = c.tets.front();
+    c.tets.insert(c.tets.end(), 2, t);
+  });
+  EXPECT_EQ(stage.mesh.tet_flags, before.tet_flags);
+  stage.editor.commit(whole);
+  expect_sound(stage.mesh);
+}
+
 TEST(MeshEditor, FillsTheHolesThatItHasMade) {
   Stage stage(kuhn_cube(3));
   std::int64_t collapsed = 0;
