@@ -1,7 +1,6 @@
 #include "cavea/remesh/mending.h"
 
 #include <cmath>
-#include <utility>
 
 #include "cavea/remesh/asking.h"
 #include "cavea/remesh/rounds.h"
@@ -12,8 +11,8 @@ namespace cavea {
 void mend_poor(Job& job) {
   constexpr int kMends = 5;
   if (job.keeping.leaves_all()) return;
-  std::vector<Phase> phases = asking_poor(poor_recipe(job.r));
-  if (job.keeping.stands) phases = holding_good(std::move(phases));
+  const std::vector<Phase> phases =
+      asking_poor(job.keeping.stands ? holding_good(poor_recipe(job.r)) : poor_recipe(job.r));
   std::int64_t poor = count_poor(job.mesh);
   for (int k = 0; k < kMends && poor > 0; ++k) {
     ask_nothing(job.mesh);

@@ -304,12 +304,12 @@ class Refinement {
     for (SizeSphere& s : spots) s.radius *= kAround;
     const SizeField near = field_inside(std::move(spots));
     const TetMesh& mesh = job_.mesh;
+    const auto is_near = [&](TetId t) { return std::isfinite(near(centroid(mesh.corners(t)))); };
     const std::vector<Phase> phases = poor_recipe(job_.r);
     for (int k = 0; k < kMends; ++k) {
       ask_nothing(job_.mesh);
       for (const Phase& phase : phases) {
-        ask_poor(job_.mesh,
-                 [&](TetId t) { return std::isfinite(near(centroid(mesh.corners(t)))); });
+        ask_poor(job_.mesh, is_near);
         if (is_nothing_asked(mesh)) return;
         run_phase(job_, phase);
       }
