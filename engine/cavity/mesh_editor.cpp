@@ -316,7 +316,7 @@ bool MeshEditor::has_closed_faces(const Cavity& cavity) {
     for (int f = 0; f < 4; ++f)
       if (stays(mesh_.links[t][f]) && !use_face(mesh_.tets[t], f, 1)) return false;
   for (const Triangle& t : cavity.triangles)  // those of interfaces have a tet on both sides
-    if (t.sides[1].is_unset() && !use(t.v[0], t.v[1], t.v[2], 2)) return false;
+    if (t.is_exterior() && !use(t.v[0], t.v[1], t.v[2], 2)) return false;
   for (const NewTet& n : cavity.tets)
     for (int f = 0; f < 4; ++f)
       if (!use_face(n.v, f, 2)) return false;

@@ -69,8 +69,7 @@ class Cut {
   TetMesh run() {
     refuse_required();
     report_.open = std::ranges::any_of(mesh_.triangles, [&](const Triangle& s) {
-      return s.alive() && s.sides[1].is_unset() &&
-             (crossed(s.v[0], s.v[1]) || crossed(s.v[1], s.v[2]));
+      return s.is_exterior() && (crossed(s.v[0], s.v[1]) || crossed(s.v[1], s.v[2]));
     });
     cut_ = subdivide(
         mesh_, [&](const MeshEdge& e) { return crossed(e.a, e.b); },

@@ -43,7 +43,7 @@ Vec3 VertexMoves::along_boundary(VertexId v, const Vec3& step) {
 }
 
 bool VertexMoves::is_boundary(const Triangle& s) const {
-  return s.sides[1].is_unset() && std::ranges::find(free_refs_, s.ref) == free_refs_.end();
+  return s.is_exterior() && std::ranges::find(free_refs_, s.ref) == free_refs_.end();
 }
 
 Vec3 VertexMoves::to_zero(VertexId v, std::span<const LevelSet* const> level_sets, double reach) {

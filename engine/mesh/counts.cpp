@@ -22,6 +22,12 @@ struct VertexSum {
   }
 };
 
+struct ExteriorSum {
+  double area2 = 0, volume6 = 0;
+
+  void add(const ExteriorSum& b) { area2 += b.area2, volume6 += b.volume6; }
+};
+
 struct TetSum {
   std::int64_t tets = 0;
   double volume = 0;
@@ -128,8 +134,6 @@ std::int64_t count_components(const TetMesh& mesh) {
                      [&](std::size_t t) { return mesh.tet_alive(TetId(t)); });
 }
 
-bool is_exterior(const Triangle& s) { return s.alive() && s.sides[1].is_unset(); }
-
 std::int64_t count_boundary_components(const TetMesh& mesh, const SurfaceEdges& edges) {
   UnionFind sets(mesh.triangles.size());
   parallel_for(edges.vertices(), [&](std::size_t a) {
@@ -137,14 +141,14 @@ std::int64_t count_boundary_components(const TetMesh& mesh, const SurfaceEdges& 
       TriangleId first = kNone;
       for (const std::uint32_t use : uses) {
         const TriangleId i = SurfaceEdges::decode(use).triangle;
-        if (!is_exterior(mesh.triangles[i])) continue;
+        if (!mesh.triangles[i].is_exterior()) continue;
         if (first == kNone) first = i;
         sets.join(first, i);
       }
     });
   });
   return count_roots(mesh.triangles.size(), sets,
-                     [&](std::size_t i) { return is_exterior(mesh.triangles[i]); });
+                     [&](std::size_t i) { return mesh.triangles[i].is_exterior(); });
 }
 
 std::int64_t count_ridges(const TetMesh& mesh, const SurfaceEdges& edges) {
@@ -188,6 +192,21 @@ Counts count(const TetMesh& mesh) {
 double box_diagonal(const TetMesh& mesh) {
   const Box box = sum_vertices(mesh).box;
   return box.empty() ? 0 : distance(box.low, box.high);
+}
+
+double thickness(const TetMesh& mesh) {
+  if (mesh.triangles.empty()) return 0;
+  const Vec3 origin = mesh.points[mesh.triangles[0].v[0]];  // near, or the sum loses digits
+  const auto sum =
+      sum_up<ExteriorSum>(mesh.triangles.size(), [&](ExteriorSum& here, std::size_t i) {
+        const Triangle& t = mesh.triangles[i];
+        if (!t.is_exterior()) return;
+        const Vec3 a = mesh.points[t.v[0]], b = mesh.points[t.v[1]], c = mesh.points[t.v[2]];
+        const Vec3 normal = cross(b - a, c - a);
+        here.area2 += norm(normal);
+        here.volume6 += dot(a - origin, normal);
+      });
+  return sum.area2 > 0 ? 2 * sum.volume6 / sum.area2 : 0;
 }
 
 }  // namespace cavea

@@ -21,7 +21,7 @@ namespace {
 constexpr double kSameWay = 0.9, kInPlane = 1e-3;
 
 bool is_flat_below(const TetMesh& m, const Triangle& s) {
-  return !s.sides[1].is_tet() && m.qualities[s.sides[0].tet()] < kFlat;
+  return s.is_exterior() && m.qualities[s.sides[0].tet()] < kFlat;
 }
 
 bool is_any_flat_below(const TetMesh& m) {
@@ -134,7 +134,7 @@ class FlatTetPeeler {
       for (const FaceLink link : m_.links[c.tets[i]]) {
         if (link.is_triangle()) {
           const Triangle& s = m_.triangles[link.triangle()];
-          may_go = may_go && !s.sides[1].is_tet() && !(s.tags & tag::kRequired);
+          may_go = may_go && s.is_exterior() && !(s.tags & tag::kRequired);
           c.outer.push_back(link.triangle());
         } else if (m_.qualities[link.tet()] >= kFlat) {
           c.behind.push_back(link);

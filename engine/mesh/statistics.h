@@ -66,5 +66,8 @@ Counts count(const TetMesh& mesh);
 
 /// Diagonal of the bounding box of the living vertices.
 double box_diagonal(const TetMesh& mesh);
+/// Six volumes over the area of the exterior boundary: the diameter of a ball, 1.5 diameters of a
+/// long rod, thrice the thickness of a sheet. \pre no holes
+double thickness(const TetMesh& mesh);
 
 }  // namespace cavea

@@ -108,6 +108,8 @@ struct Triangle {
   Tag tags = 0;
 
   bool alive() const { return v[0] != kNone; }
+  /// Of the exterior boundary, which has tets on one side only.
+  bool is_exterior() const { return alive() && sides[1].is_unset(); }
 };
 
 /// The surface's normal at a vertex as the input says; not of unit length, of either direction.

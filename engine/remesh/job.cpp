@@ -22,7 +22,7 @@ Job::Job(Input& from, const SizeField& wished, const Options& asked, double fine
       options(asked),
       steps(mesh, options, report.phases),
       field(asked.optim ? own_sizes(mesh) : wished),
-      r(resolve(asked, box_diagonal(mesh), wished_range(mesh, field))),
+      r(resolve(asked, {box_diagonal(mesh), thickness(mesh)}, wished_range(mesh, field))),
       most_bytes(asked.max_memory.value_or(usable_bytes())),
       surface(options, r),
       sizes(r, with_regions(field, asked.size_regions, r.hgrad), asked.max_tets, finer) {}

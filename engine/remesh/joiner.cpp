@@ -71,7 +71,7 @@ void Joiner::add_candidates(const std::vector<Junction>& junctions, int kind,
 
 bool Joiner::has_interface(const Cavity& cavity) const {
   return std::ranges::any_of(cavity.removed_triangles,
-                             [&](TriangleId t) { return mesh_.triangles[t].sides[1].is_tet(); });
+                             [&](TriangleId t) { return !mesh_.triangles[t].is_exterior(); });
 }
 
 /// Whether the new vertex is in the planes of all triangles of the exterior boundary that go.
@@ -82,8 +82,7 @@ bool Joiner::keeps_planes(const Cavity& cavity) const {
     const Triangle& t = mesh_.triangles[id];
     const Vec3 a = mesh_.points[t.v[0]], b = mesh_.points[t.v[1]], c = mesh_.points[t.v[2]];
     const double reach = std::max({distance(a, m), distance(b, m), distance(c, m)});
-    return t.sides[1].is_tet() ||
-           std::abs(volume6(m, a, b, c)) <= kRounding * reach * reach * reach;
+    return !t.is_exterior() || std::abs(volume6(m, a, b, c)) <= kRounding * reach * reach * reach;
   });
 }
 
@@ -113,7 +112,7 @@ std::optional<double> Joiner::displacement(const Junction& junction) const {
 bool Joiner::crosses(const Cavity& cavity) const {
   std::vector<PlacedTriangle> placed;
   for (const Triangle& t : cavity.triangles) {
-    if (t.sides[1].is_tet()) continue;  // inside
+    if (!t.is_exterior()) continue;  // inside
     PlacedTriangle& p = placed.emplace_back(PlacedTriangle{t.v, {}});
     for (std::size_t k = 0; k < 3; ++k)
       p.corners[k] = t.v[k] == editor_.next_vertex() ? cavity.vertex.point : mesh_.points[t.v[k]];

@@ -198,7 +198,7 @@ bool faces(OperatorContext& c, VertexId v, const Vec3& direction) {
     const double along =
         dot(normalized(cross(c.point(s.v[1]) - a, c.point(s.v[2]) - a)), direction);
     // An interface faces both ways.
-    found |= (s.sides[1].is_tet() ? std::abs(along) : along) > kThrough;
+    found |= (s.is_exterior() ? along : std::abs(along)) > kThrough;
   });
   return found;
 }

@@ -126,11 +126,15 @@ void validate(const Options& o) {
     throw OptionError(fmt::format("threads must be at least 1, not {}", o.threads));
 }
 
-ResolvedOptions resolve(const Options& o, double box_diagonal, const SizeRange& wished) {
+ResolvedOptions resolve(const Options& o, const Extent& extent, const SizeRange& wished) {
   // Shares of the box diagonal, so that defaults need no knowledge of the mesh's scale.
   constexpr double kHausd = 0.001, kHmin = 0.001, kHmax = 0.1;
+  // A wire or a sheet 1000 times as long as thick would have no shape within that tolerance: of
+  // such bodies it is at most 0.08 of the thickness, and the shortest edge likewise.
+  constexpr double kSlender = 80;
+  const double length = std::min(extent.diagonal, kSlender * extent.thickness);
   ResolvedOptions r;
-  r.hausd = o.hausd.value_or(kHausd * box_diagonal);
+  r.hausd = o.hausd.value_or(kHausd * length);
   // A coarse input is thus rounded, not blown up; a surface that is to stay is the truth itself.
   constexpr double kBulges = 3;
   r.max_bulge = o.faceted || o.freeze.surface ? 0 : o.max_bulge.value_or(kBulges * r.hausd);
@@ -145,9 +149,9 @@ ResolvedOptions resolve(const Options& o, double box_diagonal, const SizeRange& 
     return r;
   }
   // No edge is longer than the diagonal, whatever a field says where it means "any".
-  const double largest = std::min(wished.largest, box_diagonal);
-  r.hmax = o.hmax.value_or(std::max({kHmax * box_diagonal, largest, o.hmin.value_or(0)}));
-  double smallest = std::min(kHmin * box_diagonal, wished.smallest);
+  const double largest = std::min(wished.largest, extent.diagonal);
+  r.hmax = o.hmax.value_or(std::max({kHmax * extent.diagonal, largest, o.hmin.value_or(0)}));
+  double smallest = std::min(kHmin * length, wished.smallest);
   for (const SizeRegion& region : o.size_regions) smallest = std::min(smallest, size_of(region));
   r.hmin = o.hmin.value_or(std::min(smallest, r.hmax));
   resolve_local(o, r);

@@ -37,14 +37,16 @@ struct Freezes {
 };
 
 /// What the caller asks for. Lengths are in the mesh's own unit; what is not set follows from the
-/// bounding box (see resolve()).
+/// extent of the mesh (see resolve()).
 struct Options {
-  std::optional<double> hausd;  ///< distance to the ideal surface; default 0.001 box diagonals
+  /// Distance to the ideal surface; default 0.001 box diagonals, or 0.08 of the thickness() if that
+  /// is less.
+  std::optional<double> hausd;
   /// Largest distance of the ideal surface from the input's triangles; default 3 hausd.
   std::optional<double> max_bulge;
   bool faceted = false;  ///< the input's triangles are the ideal surface: no bulge at all
-  /// Shortest and longest wanted edge; by default 0.001 and 0.1 box diagonals, or the smallest and
-  /// largest size that the user's field asks for at the vertices, if that is beyond.
+  /// Shortest and longest wanted edge; by default hausd's default and 0.1 box diagonals, or the
+  /// smallest and largest size that the user's field asks for at the vertices, if that is beyond.
   std::optional<double> hmin, hmax;
   std::optional<double> hsiz;  ///< one size everywhere; excludes hmin and hmax
   /// The mesh's own sizes in place of a field: at each vertex the mean length of its edges;

@@ -20,9 +20,14 @@ struct ResolvedOptions {
   bool uniform() const { return smallest == largest; }
 };
 
+/// How large a body is: its box_diagonal() and its thickness().
+struct Extent {
+  double diagonal = 0, thickness = 0;  ///< positive
+};
+
 /// \param wished the sizes that the user's field asks for, between which a bound that is not set
 /// does not come, nor above those of regions; empty if there is no field
-/// \pre validate(options) passed; box_diagonal > 0
-ResolvedOptions resolve(const Options& options, double box_diagonal, const SizeRange& wished = {});
+/// \pre validate(options) passed
+ResolvedOptions resolve(const Options& options, const Extent& extent, const SizeRange& wished = {});
 
 }  // namespace cavea

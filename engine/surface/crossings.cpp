@@ -65,8 +65,6 @@ PlacedTriangle placed(const TetMesh& mesh, TriangleId t) {
   return {v, {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]}};
 }
 
-bool is_exterior(const Triangle& t) { return t.alive() && t.sides[1].is_unset(); }
-
 Box box_of(const PlacedTriangle& t) {
   Box box;
   for (const Vec3& p : t.corners) box.add(p);
@@ -77,7 +75,7 @@ class Boundary {
  public:
   explicit Boundary(const TetMesh& mesh)
       : mesh_(mesh), triangles_(ids_where(mesh.triangles.size(), [&](TriangleId t) {
-          return is_exterior(mesh.triangles[t]);
+          return mesh.triangles[t].is_exterior();
         })) {
     std::vector<Box> boxes(triangles_.size());
     parallel_for(boxes.size(),
@@ -155,7 +153,7 @@ bool would_cross(const TetMesh& mesh, std::span<const PlacedTriangle> triangles,
   for (std::size_t i = 0; i < triangles.size(); ++i)
     if (crosses(triangles[i], i)) return true;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (is_exterior(mesh.triangles[t]) &&
+    if (mesh.triangles[t].is_exterior() &&
         std::ranges::find(replaced, TriangleId(t)) == replaced.end() &&
         crosses(placed(mesh, TriangleId(t)), triangles.size()))
       return true;

@@ -166,7 +166,7 @@ Tag edge_tags(const TetMesh& m, const EdgeSide* begin, const EdgeSide* end,
   int outside = 0;
   for (const EdgeSide* s = begin; s != end; ++s) {
     tags |= m.triangles[s->triangle].edge_tag[s->k];
-    outside += m.triangles[s->triangle].sides[1].is_unset();
+    outside += m.triangles[s->triangle].is_exterior();
   }
   if (outside > 2) tags |= tag::kPinched;
   if (end - begin != 2) return Tag(tags | tag::kNonManifold);

@@ -89,7 +89,7 @@ void SurfaceModel::take_facets(TetMesh& mesh) {
     const auto at = [&](int k) { return snapshot_vertex_[t.v[k]]; };
     facets_.push_back({at(0), at(1), at(2)});
     facet_patch_.push_back(t.patch);
-    facet_exterior_.push_back(t.sides[1].is_unset());
+    facet_exterior_.push_back(t.is_exterior());
     facet_hausd_.push_back(hausd_of(t.ref));
   }
   smooth_neighbors_.assign(facets_.size(), {kNone, kNone, kNone});

@@ -189,6 +189,16 @@ TEST(Counts, ComponentsOfVolumeAndBoundary) {
   EXPECT_NEAR(c.volume, (125 - 27 + 1) / 125.0, 1e-14);
 }
 
+TEST(Counts, ThicknessIsOfTheExteriorBoundaryAlone) {
+  MeshData data = test::kuhn_cube(4);
+  test::set_refs(data, [](const Vec3& p) { return p.x > 0.5 ? 1 : 2; });
+  EXPECT_NEAR(thickness(build(data).mesh), 1, 1e-14);
+  constexpr double kThin = 1e-3, kFar = 1e4;  // a sheet far from the origin
+  for (Vec3& p : data.vertices) p = {p.x + kFar, p.y - kFar, kThin * p.z};
+  EXPECT_NEAR(thickness(build(data).mesh), 6 * kThin / (2 + 4 * kThin), 1e-9 * kThin);
+  EXPECT_NEAR(thickness(build(test::ball(24)).mesh), 2, 0.02);
+}
+
 TEST(Statistics, HaveTheSameBitsAtAnyNumberOfThreads) {
   MeshData data = test::shuffled(test::ball(14), 5);
   test::set_refs(data, [](const Vec3& p) { return p.x > 0.1 ? 1 : p.y > 0 ? 2 : 3; });

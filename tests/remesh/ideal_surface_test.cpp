@@ -42,7 +42,7 @@ TEST(IdealSurface, IsWithinTheToleranceOfFacetsThatAreTrusted) {
   Options options;
   options.hausd = sagitta / 1.06;
   TetMesh mesh = built(undercut_plate());
-  const ResolvedOptions resolved = resolve(options, 2 * std::hypot(kHalfSide, kHalfSide));
+  const ResolvedOptions resolved = resolve(options, {box_diagonal(mesh), thickness(mesh)});
   IdealSurface surface(options, resolved);
   surface.take(mesh);
   EXPECT_LT(surface.bulge(), 0.9 * *options.hausd);

@@ -123,6 +123,23 @@ TEST(Sizes, OfAnyLengthDoNotExceedTheDiagonal) {
   EXPECT_EQ(report.hmax, report.before.counts.box_diagonal());
 }
 
+/// A thousandth of this rod's length is more than half of its radius, which is 1.
+TEST(Sizes, OfSlenderBodiesFollowTheirThickness) {
+  MeshData data = cylinder(4);
+  for (Vec3& p : data.vertices) p.z *= 600;
+  TetMesh mesh = built(data);
+  const double wanted = 0.08 * thickness(mesh);
+  const Report report = remesh(mesh, {}, {});
+  expect_sound(mesh);
+  EXPECT_DOUBLE_EQ(report.hausd, wanted);
+  EXPECT_LT(report.hausd, 0.3 * 0.001 * report.before.counts.box_diagonal());
+  EXPECT_DOUBLE_EQ(report.hmin, wanted);
+  EXPECT_LE(report.surface_distance, wanted);
+  EXPECT_GE(report.after.quality.worst, 0.3);
+  EXPECT_GE(report.after.quality.mean, 0.78);
+  EXPECT_NEAR(report.after.counts.volume / report.before.counts.volume, 1, 0.15);
+}
+
 TEST(Sizes, StayWithinTheBounds) {
   TetMesh mesh = built(kuhn_cube(4));
   Options options;

@@ -100,7 +100,7 @@ TEST(SurfaceDistance, IsFoundBetweenSamples) {
 /// the tolerance away, and on an edge that leads to the apex of their lattice.
 TEST(SurfaceDistance, ANotchInAnEdgeIsFoundBetweenSamplesThatAreNear) {
   constexpr double kDepth = 0.01, kFarthest = 0.9724 * kDepth;  // of the edge, from the notch
-  constexpr double kHausd = kFarthest / 1.11, kStep = 1.001 * std::numbers::sqrt2 / 30;
+  constexpr double kHausd = kFarthest / 1.11, kLongest = 1.001 * std::numbers::sqrt2 / 30;
   const TetMesh whole = build(test::kuhn_cube(24)).mesh;
   TetMesh cube = build(test::kuhn_cube(1)).mesh;
   classify_features(cube, {});
@@ -111,7 +111,7 @@ TEST(SurfaceDistance, ANotchInAnEdgeIsFoundBetweenSamplesThatAreNear) {
     for (Vec3& p : notched.points)
       if (distance(p, {k / 24., 0, 1}) < 1e-9)
         p = p + kDepth / std::numbers::sqrt2 * Vec3{0, 1, -1};
-    DistanceMeter meter(model, {{0.1 * kStep, kStep}, 0.95, 0.5});
+    DistanceMeter meter(model, {{0.1 * kLongest, kLongest}, 0.95, 0.5});
     const SurfaceDistance d = meter.measure(notched);
     EXPECT_GT(d.model_to_out.worst, 1.05);
     EXPECT_FALSE(d.far_facets.empty());

@@ -24,7 +24,7 @@ SurfaceTriangles read_surface(const std::string& file) {
   const TetMesh mesh = load_mesh(file, {}, {}).mesh;
   SurfaceTriangles surface{mesh.points, {}};
   for (const Triangle& s : mesh.triangles)
-    if (s.sides[1].is_unset()) surface.triangles.push_back(s.v);
+    if (s.is_exterior()) surface.triangles.push_back(s.v);
   return surface;
 }
 

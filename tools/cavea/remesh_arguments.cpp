@@ -14,8 +14,9 @@ namespace {
 
 void add_size_flags(CLI::App& command, RemeshArguments& arguments, const char* sizes_flag) {
   Options& options = arguments.options;
-  command.add_option("--hausd", options.hausd,
-                     "Largest distance to the ideal surface [0.001 of the box diagonal]");
+  command.add_option(
+      "--hausd", options.hausd,
+      "Largest distance to the ideal surface [0.001 of the box diagonal, less of slender bodies]");
   CLI::Option* bulge = command.add_option(
       "--max-bulge", options.max_bulge,
       "Largest distance of the ideal surface from the input's triangles [3 hausd]");
@@ -23,7 +24,8 @@ void add_size_flags(CLI::App& command, RemeshArguments& arguments, const char* s
       ->excludes(bulge);
   command.add_option("--surface", arguments.surface,
                      "Mesh whose surface is the truth in place of that of IN");
-  command.add_option("--hmin", options.hmin, "Shortest wanted edge [0.001 of the box diagonal]");
+  command.add_option("--hmin", options.hmin,
+                     "Shortest wanted edge [0.001 of the box diagonal, less of slender bodies]");
   command.add_option("--hmax", options.hmax, "Longest wanted edge [0.1 of the box diagonal]");
   CLI::Option* uniform = command.add_option("--hsiz", options.hsiz, "One edge length everywhere");
   CLI::Option* sizes = command
