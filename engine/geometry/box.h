@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "cavea/geometry/vec3.h"
 
@@ -54,5 +55,12 @@ struct Box {
  private:
   static constexpr double kFar = std::numeric_limits<double>::max();
 };
+
+/// Around points.
+inline Box box_of(std::span<const Vec3> points) {
+  Box box;
+  for (const Vec3& p : points) box.add(p);
+  return box;
+}
 
 }  // namespace cavea

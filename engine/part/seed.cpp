@@ -85,8 +85,7 @@ class SeedLevel {
     if (cell_ < kFinestCell * smallest) return;
     throw_if_cancelled(options_.cancel);
     const std::array<Vec3, 4> tet = mesh_.corners(t);
-    Box box;
-    for (const Vec3& p : tet) box.add(p);
+    const Box box = box_of(tet);
     const auto offer = [&](const Vec3& p) { add_if_wanted(k, p, out); };
     const bool all = options_.size || cell_ >= kFinestCell * options_.largest;
     if (all || options_.lattice.count_in(box, level_) < kFewPoints)

@@ -65,12 +65,6 @@ PlacedTriangle placed(const TetMesh& mesh, TriangleId t) {
   return {v, {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]}};
 }
 
-Box box_of(const PlacedTriangle& t) {
-  Box box;
-  for (const Vec3& p : t.corners) box.add(p);
-  return box;
-}
-
 class Boundary {
  public:
   explicit Boundary(const TetMesh& mesh)
@@ -79,7 +73,7 @@ class Boundary {
         })) {
     std::vector<Box> boxes(triangles_.size());
     parallel_for(boxes.size(),
-                 [&](std::size_t i) { boxes[i] = box_of(placed(mesh, triangles_[i])); });
+                 [&](std::size_t i) { boxes[i] = box_of(placed(mesh, triangles_[i]).corners); });
     tree_.emplace(boxes);
     const std::vector<TriangleId> ids = triangles_;
     boxes_.resize(boxes.size());
@@ -140,11 +134,11 @@ bool would_cross(const TetMesh& mesh, std::span<const PlacedTriangle> triangles,
   Box around;
   std::vector<Box> boxes;
   for (const PlacedTriangle& t : triangles) {
-    boxes.push_back(box_of(t));
+    boxes.push_back(box_of(t.corners));
     for (const Vec3& p : t.corners) around.add(p);
   }
   const auto crosses = [&](const PlacedTriangle& other, std::size_t count) {
-    const Box box = box_of(other);
+    const Box box = box_of(other.corners);
     if (!box.overlaps(around)) return false;
     for (std::size_t i = 0; i < count; ++i)
       if (boxes[i].overlaps(box) && crossing_of(triangles[i], other)) return true;

@@ -125,8 +125,7 @@ class FromModel {
   }
 
   void widen(std::size_t t, Near& near) const {
-    Box box;
-    for (const Vec3& p : out_.corners[t]) box.add(p);
+    const Box box = box_of(out_.corners[t]);
     near.slots.clear();
     near.all = true;
     tree_.near(box, reach_around(box, hausd_), near.slots);
@@ -286,22 +285,17 @@ struct Changes {
  private:
   void add_boxes(std::span<const Corners> triangles, const std::vector<std::int32_t>& other) {
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-      if (other[i] != kNone) continue;
-      Box& box = boxes.emplace_back();
-      for (const Vec3& p : triangles[i]) box.add(p);
+      if (other[i] == kNone) boxes.push_back(box_of(triangles[i]));
     }
   }
 };
 
 /// Where the other surface may have what is nearest to a sample of the facet's patch.
 Box reach_of(const BezierTriangle& patch, double farthest) {
-  Box box;  // a Bezier triangle is within the hull of its control points
-  for (const Vec3& p : patch.corner) box.add(p);
-  for (const auto& points : patch.edge)
-    for (const Vec3& p : points) box.add(p);
+  Box box = box_of(patch.corner);  // a Bezier triangle is within the hull of its control points
+  for (const auto& points : patch.edge) box.add(box_of(points));
   box.add(patch.center);
-  const Vec3 reach{farthest, farthest, farthest};
-  return {box.low - reach, box.high + reach};
+  return box.widened(farthest);
 }
 
 }  // namespace
@@ -474,7 +468,7 @@ SampleSteps default_sample_steps(const TetMesh& mesh, const SurfaceModel& model)
       [&](std::size_t begin, std::size_t end) {
         Box here;
         for (std::size_t f = begin; f < end; ++f)
-          for (const Vec3& p : model.facet_corners(std::int32_t(f))) here.add(p);
+          here.add(box_of(model.facet_corners(std::int32_t(f))));
         return here;
       },
       [](Box a, const Box& b) {

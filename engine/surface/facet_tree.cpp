@@ -8,12 +8,6 @@
 namespace cavea {
 namespace {
 
-Box box_of(const Corners& triangle) {
-  Box box;
-  for (const Vec3& p : triangle) box.add(p);
-  return box;
-}
-
 std::vector<Box> boxes_of(std::span<const Corners> triangles) {
   std::vector<Box> boxes(triangles.size());
   parallel_for(triangles.size(), [&](std::size_t i) { boxes[i] = box_of(triangles[i]); });

@@ -131,9 +131,7 @@ double Sheets::opposite(std::size_t t, const Vec3& place, const Facing& facing,
 Sheets::Hit Sheets::nearest_of_triangle(std::size_t t, const Facing& facing, double reach) const {
   const auto& [a, b, c] = triangles_[t];
   const Vec3 places[] = {a, b, c, (a + b + c) / 3};
-  Box box;
-  for (const Vec3& p : triangles_[t]) box.add(p);
-  return nearest(t, box, places, facing, reach);
+  return nearest(t, box_of(triangles_[t]), places, facing, reach);
 }
 
 std::vector<double> Sheets::all_opposite(const Facing& facing,

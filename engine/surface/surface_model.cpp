@@ -204,9 +204,7 @@ Vec3 SurfaceModel::normal(const Anchor& anchor, int patch) const {
 }
 
 std::optional<Anchor> SurfaceModel::corner_near(const Vec3& place, double reach) const {
-  Box box;
-  box.add(place + Vec3{reach, reach, reach});
-  box.add(place - Vec3{reach, reach, reach});
+  const Box box = Box{place, place}.widened(reach);
   std::optional<Anchor> best;
   double best2 = reach * reach;
   curve_tree_->visit_overlapping(box, [&](std::size_t slot) {
