@@ -62,13 +62,13 @@ class Judge {
   }
 
   bool is_good() const {
-    return is_as_good_as_results(before_, job_.r.uniform(), job_.options.min_conform) &&
+    return is_as_good_as_results(before_, job_.r.uniform(), job_.options) &&
            (none_is_poor(before_) || few_are_poor(job_.mesh));
   }
 
   bool is_near() {
     constexpr double kLeastFiner = 0.8;  // what is finer yet asks for the next scale
-    if (!has_the_quality_of_results(before_.quality, false)) return false;
+    if (!has_the_quality_of_results(before_.quality, false, job_.options)) return false;
     const InCurvedSizes curved{lengths_in_curved_sizes(), job_.surface.bulge() / job_.r.hausd};
     keeping_.made_room = may_have_made_room(before_, curved, job_.options);
     return job_.sizes.finer() >= kLeastFiner && is_nearly_result(before_, curved, job_.options);

@@ -7,7 +7,7 @@ namespace cavea {
 /// Where a body has no room, sizes of this share of those wanted are the finest that are tried.
 inline constexpr double kFinestRoom = 0.21;
 
-/// All bodies that are nowhere narrow reach this mean quality.
+/// All bodies that are nowhere narrow reach this mean quality with the default gradation.
 inline constexpr double kRoomyMean = 0.78;
 
 /// How much room the shape leaves for elements of the sizes asked for: in strips one of them wide
@@ -15,10 +15,10 @@ inline constexpr double kRoomyMean = 0.78;
 enum class Room { kMissing, kLittle, kEnough };
 
 /// Whether the mesh is one with room, as far as the means tell.
-bool has_room(const MeshSummary& after);
+bool has_room(const MeshSummary& after, const Options& options);
 
 /// Whether another run might find that it has none.
-bool hardly_has_room(const MeshSummary& after);
+bool hardly_has_room(const MeshSummary& after, const Options& options);
 
 /// Whether the mesh is so coarse on the whole that it may grow many times to have room.
 bool is_coarse_mesh(const MeshSummary& after);

@@ -16,11 +16,14 @@ inline constexpr double kPoorQuality = 0.4;
 /// Whether all lengths are such as results have.
 bool no_length_is_poor(const LengthStatistics& now);
 
-/// Whether the mean quality is what runs reach on bodies that are nowhere thin.
-bool has_the_quality_of_results(const QualityStatistics& now, bool uniform);
+/// What a gradation steeper than the default costs of the mean quality, where sizes vary; else 0.
+double mean_lost_to_gradation(const Options& options);
 
-/// The same, and `conform` percent of the lengths conform.
-bool is_as_good_as_results(const MeshSummary& now, bool uniform, double conform);
+/// Whether the mean quality is what runs reach on bodies that are nowhere thin.
+bool has_the_quality_of_results(const QualityStatistics& now, bool uniform, const Options& options);
+
+/// The same, and as many lengths conform as the options want.
+bool is_as_good_as_results(const MeshSummary& now, bool uniform, const Options& options);
 
 /// Whether the worst quality was poor and is better by more than chance would make it.
 bool worst_has_risen(const MeshSummary& before, const MeshSummary& after);

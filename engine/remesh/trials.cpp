@@ -37,6 +37,7 @@ class Trials {
         if (const std::optional<double> finer = finer_size_of_input()) try_finer(*finer);
         break;
       case Room::kMissing:
+        finest_tets_ = best_.report.after.counts.tets;
         if (is_left_alone(*first) || (first->made_room() && try_mended())) break;
         for (std::size_t i = 0; i < std::size(kFinerSizes); ++i)
           if (try_finer_and_back(kFinerSizes[i], i == 0 ? 1 : kFinerSizes[i - 1])) break;
@@ -77,10 +78,10 @@ class Trials {
   /// found by one run and missed by the next: what the input has decides, but where it is much
   /// finer and the room is more than hardly enough, the caller wants other sizes.
   std::optional<double> finer_size_of_input() const {
-    if (!has_the_quality_of_results(best_.report.before.quality, false)) return {};
+    if (!has_the_quality_of_results(best_.report.before.quality, false, options_)) return {};
     for (const double finer : kFinerSizes) {
       if (Run(input_, field_, options_, Effort::kWhereNeeded, finer).stands()) return finer;
-      if (!hardly_has_room(best_.report.after)) break;
+      if (!hardly_has_room(best_.report.after, options_)) break;
     }
     return {};
   }
@@ -88,8 +89,7 @@ class Trials {
   /// A result that lacks room by little was the best of these trials: others would find another
   /// one by chance.
   bool is_left_alone(const Run& run) const {
-    return run.only_mends() &&
-           is_as_good_as_results(best_.report.after, false, options_.min_conform);
+    return run.only_mends() && is_as_good_as_results(best_.report.after, false, options_);
   }
 
   bool gained(const Result& result) const {
@@ -123,22 +123,31 @@ class Trials {
     const bool may_grow = is_coarse_mesh(best_.report.after);
     const std::unique_ptr<Run> run = run_once(finer);
     if (run->only_mends()) return offer(take(*run));
+    if (bounds_hold(*run)) return offer(take(*run)), true;
     Result there{copy_of(run->mesh()), run->report()};
     run->coarsen(back_to);
     keep_phases(*run);
     Result back = take(*run);
     back.report.before = best_.report.before;
     const bool as_sound = is_sound(back) || !is_sound(there);
-    if ((has_room(back.report.after) || gained(back)) && as_sound && !is_worst_worse(back))
+    if ((has_room(back.report.after, options_) || gained(back)) && as_sound &&
+        !is_worst_worse(back))
       std::swap(best_, back);
     return room(best_.report) != Room::kMissing || !may_grow || offer(std::move(there));
+  }
+
+  /// The caller's bounds may leave sizes hardly finer than those of the last run.
+  bool bounds_hold(const Run& run) {
+    constexpr double kLeastGrowth = 1.1;  // about 2 are expected, see kFinerSizes
+    const std::int64_t tets = run.report().after.counts.tets;
+    return double(tets) < kLeastGrowth * double(std::exchange(finest_tets_, tets));
   }
 
   bool offer(Result&& result) {
     const MeshSummary& now = result.report.after;
     // What has become too large to be made finer yet may lack room all the same.
-    const bool enough = has_room(now) || !is_coarse_mesh(now);
-    if (has_room(now) || (enough && gained(result))) best_ = std::move(result);
+    const bool enough = has_room(now, options_) || !is_coarse_mesh(now);
+    if (has_room(now, options_) || (enough && gained(result))) best_ = std::move(result);
     return enough;
   }
 
@@ -146,6 +155,7 @@ class Trials {
   const SizeField& field_;
   const Options& options_;
   Result best_;
+  std::int64_t finest_tets_ = 0;  ///< of the run with the finest sizes so far
   std::vector<PhaseTime> phases_;
 };
 
