@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cavea/base/error.h"
+
 namespace cavea {
 
 void gather_ball(const TetMesh& mesh, VertexId v, TetMarker& marker, Ball& ball) {
@@ -10,6 +12,8 @@ void gather_ball(const TetMesh& mesh, VertexId v, TetMarker& marker, Ball& ball)
   ball.tets.clear();
   marker.begin(mesh.tets.size());
   const TetId first = mesh.vertex_tets[v];
+  // Where a surface passes through itself, positive volumes do not prove that a mesh stays whole.
+  if (first == kNone) throw InternalError("a vertex of a tetrahedron has been removed");
   marker.mark(first);
   ball.tets.push_back(first);
   for (std::size_t i = 0; i < ball.tets.size(); ++i) {

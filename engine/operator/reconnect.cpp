@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cavea/cavity/pieces.h"
 #include "cavea/operator/small_polyhedron.h"
 
 namespace cavea {
@@ -164,7 +165,7 @@ Verdict reconnect(OperatorContext& c, TetId t, bool removes_vertex, Cavity& cavi
   while (growing.grow())
     if (growing.improve()) {
       growing.fill(cavity);
-      return Verdict::kAccept;
+      return keeps_balls(c.mesh, cavity) ? Verdict::kAccept : Verdict::kBreaksTopology;
     }
   return Verdict::kWorseQuality;
 }

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "cavea/base/error.h"
 #include "cavea/base/parallel.h"
+#include "cavea/mesh/check.h"
 #include "cavea/part/interface_quality.h"
 #include "cavea/remesh/recipe.h"
 #include "cavea/remesh/stubborn.h"
@@ -71,6 +73,14 @@ std::vector<std::string> warnings_of(const Job& job, const std::vector<Crossing>
                   crossings.size(), to_text(crossings.front().where))};
 }
 
+/// Where a surface passes through itself, operators are not sure of what positive volumes prove
+/// everywhere else.
+void require_whole(const TetMesh& mesh) {
+  if (const CheckResult result = check(mesh, {.allow_flat_tets = true}); !result.sound())
+    throw InternalError(fmt::format("the mesh broke where its surface passes through itself: {}",
+                                    result.message()));
+}
+
 }  // namespace
 
 void conclude(Job& job, const SurfaceDistance& distance) {
@@ -87,6 +97,7 @@ void conclude(Job& job, const SurfaceDistance& distance) {
                  if (job.options.directions)
                    report.directions = surface_directions(mesh, job.surface.model());
                });
+  if (!crossings.empty()) require_whole(mesh);
   report.verdicts = counts_of(job.verdicts);
   report.stubborn = find_stubborn(mesh, job.surface.working_model(), last_phase(job.r).cycle,
                                   job.options.min_quality);

@@ -33,6 +33,10 @@ SizeSphere spot_around(const FarSample& f, const TetMesh& mesh, const ResolvedOp
   return spot;
 }
 
+std::size_t far_places(const SurfaceDistance& distance) {
+  return distance.far_facets.size() + distance.far_triangles.size();
+}
+
 /// Triangles that stay as they are, whatever size is asked for there: all around would be refined,
 /// repair by repair, and nothing mended.
 class Stuck {
@@ -69,6 +73,37 @@ class Stuck {
   std::map<Place, int> asked_;
 };
 
+/// Whether a row of repairs only makes the surface finer, as where it is held away from the ideal
+/// one: by what is required, or since that is another body's.
+class Vain {
+ public:
+  Vain(const Job& job, const SurfaceDistance& distance)
+      : worst_(distance.worse().worst),
+        places_(far_places(distance)),
+        tets_(job.mesh.tets.size()) {}
+
+  /// \param distance after one more repair
+  bool operator()(const Job& job, const SurfaceDistance& distance) {
+    // The distance goes with the square of the size: twice the tets leave two thirds of it.
+    constexpr double kProgress = 0.9, kMostGrowth = 2;
+    // What is better by chance, time and again, is no better for it.
+    constexpr double kLittle = 0.5, kMostInAll = 8;
+    const double worst = distance.worse().worst;
+    const std::size_t places = far_places(distance), tets = job.mesh.tets.size();
+    if (worst > kLittle * first_worst_ && double(tets) > kMostInAll * double(first_tets_))
+      return true;
+    if (worst < kProgress * worst_ || double(places) < kProgress * double(places_)) {
+      worst_ = worst, places_ = places, tets_ = tets;
+      return false;
+    }
+    return double(tets) > kMostGrowth * double(tets_);
+  }
+
+ private:
+  double worst_, first_worst_ = worst_;
+  std::size_t places_, tets_, first_tets_ = tets_;
+};
+
 std::vector<SizeSphere> spots_of(const SurfaceDistance& distance, const TetMesh& mesh,
                                  const ResolvedOptions& r, const Stuck& stuck) {
   std::vector<SizeSphere> spots;
@@ -96,8 +131,7 @@ bool repair(Job& job, const SurfaceDistance& distance, Stuck& stuck) {
 /// uniform only few places may be, or it is too large for the tolerance.
 bool may_repair(const Job& job, const SurfaceDistance& distance) {
   constexpr double kFewPlaces = 0.02;  // of the surface triangles
-  const std::size_t places = distance.far_facets.size() + distance.far_triangles.size();
-  const bool few = double(places) < kFewPlaces * double(job.mesh.triangles.size());
+  const bool few = double(far_places(distance)) < kFewPlaces * double(job.mesh.triangles.size());
   return (few || !job.r.uniform()) && !job.r.freeze.insert && !job.r.freeze.surface &&
          !job.sizes.budget().binds();
 }
@@ -145,12 +179,14 @@ SurfaceDistance measure_and_repair(Job& job) {
   int repairs = 0;
   Stuck stuck;
   const auto repair_all = [&] {
+    Vain in_vain(job, distance);
     for (; repairs < kMostRepairs && may_repair(job, distance) && is_far(job, distance, repairs);
          ++repairs) {
       bool is_tried = false;
       job.steps.timed("repair", [&] { is_tried = repair(job, distance, stuck); });
       if (!is_tried) break;
       distance = finish_and_measure(job);
+      if (in_vain(job, distance)) break;
     }
   };
   repair_all();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
@@ -16,6 +17,20 @@ namespace {
 
 /// Vertices farther than this share of the tolerance from the model are to be moved onto it.
 constexpr double kOnSurface = 0.05;
+
+std::vector<Box> facet_boxes(const SurfaceModel& model) {
+  std::vector<Box> boxes(model.facets());
+  for (std::size_t f = 0; f < boxes.size(); ++f)
+    boxes[f] = box_of(model.facet_corners(std::int32_t(f)));
+  return boxes;
+}
+
+std::vector<Box> curve_boxes(const SurfaceModel& model) {
+  std::vector<Box> boxes(model.curve_edges());
+  for (std::size_t e = 0; e < boxes.size(); ++e)
+    boxes[e] = box_of(model.curve_ends(std::int32_t(e)));
+  return boxes;
+}
 
 class Attachment {
  public:
@@ -63,19 +78,6 @@ class Attachment {
     std::int32_t edge;
     double t, distance2;
   };
-
-  static std::vector<Box> facet_boxes(const SurfaceModel& model) {
-    std::vector<Box> boxes(model.facets());
-    for (std::size_t f = 0; f < boxes.size(); ++f)
-      for (const Vec3& p : model.facet_corners(std::int32_t(f))) boxes[f].add(p);
-    return boxes;
-  }
-  static std::vector<Box> curve_boxes(const SurfaceModel& model) {
-    std::vector<Box> boxes(model.curve_edges());
-    for (std::size_t e = 0; e < boxes.size(); ++e)
-      for (const Vec3& p : model.curve_ends(std::int32_t(e))) boxes[e].add(p);
-    return boxes;
-  }
 
   std::optional<OnCurve> nearest_curve(const Vec3& p, double reach) const {
     std::optional<OnCurve> best;
@@ -227,6 +229,31 @@ double attach_to(TetMesh& mesh, const SurfaceModel& model, const FeatureOptions&
   along.crease = std::numeric_limits<double>::infinity();
   along.may_be_ridge = [&](VertexId a, VertexId b) { return attachment.on_curve(a, b); };
   return attachment.run(classify_features(mesh, along));
+}
+
+OffVertex farthest_vertex(const TetMesh& mesh, const SurfaceModel& model) {
+  const BoxTree tree(facet_boxes(model));
+  const auto distance_of = [&](VertexId v) {
+    double nearest2 = std::numeric_limits<double>::infinity();
+    tree.visit_near(mesh.points[v], nearest2, [&](std::size_t slot) {
+      const auto [a, b, c] = model.facet_corners(tree.order()[slot]);
+      nearest2 = std::min(nearest2, closest_on_triangle(mesh.points[v], a, b, c).distance2);
+    });
+    return std::sqrt(nearest2);
+  };
+  const auto farther = [](const OffVertex& a, const OffVertex& b) {
+    return b.distance > a.distance ? b : a;
+  };
+  return parallel_reduce(
+      mesh.points.size(), OffVertex{},
+      [&](std::size_t begin, std::size_t end) {
+        OffVertex here;
+        for (std::size_t v = begin; v < end; ++v)
+          if (mesh.vertex_tags[v] & tag::kSurface)
+            here = farther(here, {VertexId(v), distance_of(VertexId(v))});
+        return here;
+      },
+      farther);
 }
 
 }  // namespace cavea

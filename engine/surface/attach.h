@@ -15,4 +15,13 @@ namespace cavea {
 double attach_to(TetMesh& mesh, const SurfaceModel& model, const FeatureOptions& options,
                  double tolerance);
 
+/// A surface vertex and its distance from all of a model's facets.
+struct OffVertex {
+  VertexId vertex = kNone;
+  double distance = 0;
+};
+
+/// The farthest one.
+OffVertex farthest_vertex(const TetMesh& mesh, const SurfaceModel& model);
+
 }  // namespace cavea

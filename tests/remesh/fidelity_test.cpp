@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 
+#include "cavea/base/error.h"
 #include "cavea/surface/crossings.h"
 #include "remesh/support.h"
 
@@ -144,6 +145,32 @@ void expect_on_surface(const TetMesh& mesh, const Report& report) {
   expect_sound(mesh);
   EXPECT_LE(report.surface_distance, report.hausd);
   EXPECT_TRUE(find_crossings(mesh).empty());
+}
+
+TEST(Fidelity, AnotherBodysSurfaceIsRefused) {
+  MeshData data = ball(6);
+  const TetMesh truth = built(data);
+  for (Vec3& p : data.vertices) p.x += 0.2;
+  TetMesh mesh = built(data);
+  EXPECT_THROW(remesh(mesh, {}, on(truth, 0.003, false)), cavea::InputError);
+  for (Vec3& p : data.vertices) p.x -= 0.199;
+  mesh = built(data);
+  EXPECT_NO_THROW(remesh(mesh, {}, on(truth, 0.003, false)));
+  expect_sound(mesh);
+}
+
+/// No place is nearer to a surface than rounding allows, however fine the mesh is there.
+TEST(Fidelity, RepairsThatAreInVainEnd) {
+  TetMesh mesh = built(mapped(kuhn_cube(1), [](const Vec3& p) {
+    return Vec3{0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z};
+  }));
+  Options options;
+  options.hausd = 1e-17;
+  options.optim = true;
+  const Report report = remesh(mesh, {}, options);
+  expect_sound(mesh);
+  EXPECT_GT(report.surface_distance, report.hausd);
+  EXPECT_LT(report.after.counts.tets, 100'000);
 }
 
 // Curves of a coarse truth bulge by more than two tolerances from its edges.
