@@ -9,6 +9,7 @@
 #include "cavea/remesh/attempt.h"
 #include "cavea/remesh/joiner.h"
 #include "cavea/remesh/recipe.h"
+#include "cavea/remesh/reference_regions.h"
 #include "cavea/remesh/rounds.h"
 
 namespace cavea {
@@ -39,6 +40,9 @@ void join_and_mend(Job& job, bool surface_frozen, const std::vector<FailedPlace>
 void try_joining(Job& job, bool surface_frozen, SurfaceDistance& distance,
                  const std::function<SurfaceDistance()>& measure) {
   constexpr int kTrials = 6;
+  // Each round may move a curve by the tolerance; where that adds up, a region has lost its place.
+  constexpr double kRegionReach = 2;  // hausd
+  const ReferenceRegions regions(job.mesh);
   const Standard standard = standard_of(job.mesh, distance, find_crossings(job.mesh).size());
   std::vector<FailedPlace> failed;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -47,8 +51,11 @@ void try_joining(Job& job, bool surface_frozen, SurfaceDistance& distance,
     if (!before) return;
     SurfaceDistance after = measure();
     const std::vector<Crossing> crossings = find_crossings(job.mesh);
-    if (standard.is_met(job.mesh, after, crossings)) return void(distance = std::move(after));
-    const std::vector<FailedPlace> now = standard.failures(job.mesh, after, crossings);
+    const std::vector<FailedPlace> lost = regions.lost_from(job.mesh, kRegionReach * job.r.hausd);
+    if (lost.empty() && standard.is_met(job.mesh, after, crossings))
+      return void(distance = std::move(after));
+    std::vector<FailedPlace> now = standard.failures(job.mesh, after, crossings);
+    now.insert(now.end(), lost.begin(), lost.end());
     std::move(*before).give_back(job);
     if (now.empty()) return;  // nobody knows where to do otherwise
     failed.insert(failed.end(), now.begin(), now.end());
