@@ -1,6 +1,11 @@
 #include "cavea/remesh/stubborn.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "cavea/geometry/centroid.h"
 #include "cavea/operator/edge_collapse.h"
@@ -47,11 +52,31 @@ class Inquiry {
     for (const auto& e : kEdgeVertices) ask_edge(t, e[0], e[1]);
     for (int i = 0; i < 4; ++i) ask_face_and_vertex(t, i);
     add(settings_.swap, Operator::kReconnect, reconnect(context_, t, settings_.collapse, cavity_));
+    std::string reason = obstacle_of(context_, t);
+    if (reason.empty()) reason = held_by(t);
     return {centroid(mesh_.corners(t)), mesh_.qualities[t], counts_of(verdicts_),
-            obstacle_of(context_, t)};
+            std::move(reason)};
   }
 
  private:
+  /// What the caller wants left as it is.
+  std::string held_by(TetId t) const {
+    if (mesh_.tet_flags[t] & tet_flag::kRequired) return "the tetrahedron is required";
+    const auto has = [&](Tag tags) {
+      return std::ranges::any_of(mesh_.tets[t],
+                                 [&](VertexId v) { return (mesh_.vertex_tags[v] & tags) != 0; });
+    };
+    if (has(tag::kRequired | tag::kOnRequiredEdge)) return "what is required touches it";
+    if (settings_.limits.surface_frozen && has(tag::kSurface))
+      return "the surface is to stay as it is";
+    std::vector<std::string> frozen;
+    for (const auto& [allowed, what] :
+         {std::pair(settings_.insert, "inserted"), std::pair(settings_.collapse, "collapsed"),
+          std::pair(settings_.swap, "swapped"), std::pair(settings_.move, "moved")})
+      if (!allowed) frozen.push_back(what);
+    return frozen.empty() ? "" : fmt::format("nothing is to be {}", fmt::join(frozen, " or "));
+  }
+
   void add(bool allowed, Operator o, Verdict v) {
     if (allowed) verdicts_.add(o, v);
   }

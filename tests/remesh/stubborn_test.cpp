@@ -51,6 +51,23 @@ TEST(Stubborn, AWedgeThatIsBluntEnoughIsNoReason) {
     EXPECT_FALSE(says(t, "meets itself")) << t.reason;
 }
 
+TEST(Stubborn, WhatTheCallerWantsLeftIsAReason) {
+  const auto expect_all_say = [](const MeshData& data, const Options& options,
+                                 const std::string& what) {
+    const Report report = report_of(data, options);
+    ASSERT_FALSE(report.stubborn.empty());
+    for (const StubbornTet& t : report.stubborn) EXPECT_TRUE(says(t, what)) << t.reason;
+  };
+  MeshData data = kuhn_cube(4);
+  Options options = uniform(0.25);
+  options.min_quality = 1;  // the worst are named, whatever they are
+  options.freeze.swap = options.freeze.move = true;
+  expect_all_say(data, options, "nothing is to be swapped or moved");
+  options.freeze = {};
+  for (std::size_t t = 0; t < data.tets.size(); ++t) data.required_tets.push_back(std::int32_t(t));
+  expect_all_say(data, options, "the tetrahedron is required");
+}
+
 TEST(Stubborn, EveryOperatorIsAsked) {
   const std::map<std::string, std::int64_t> kQuestions = {
       {"edge_split", 6}, {"edge_collapse", 12}, {"edge_swap", 6}, {"edge_star", 6},
@@ -110,7 +127,8 @@ MeshData roof(double width) {
 }
 
 TEST(Stubborn, TetsAtANarrowStripBetweenCurvesAreNamedWithItsWidth) {
-  // Too narrow for the finest size, too, which is 0.03 of the wanted one, and too wide to be joined.
+  // Too narrow for the finest size, too, which is 0.03 of the wanted one, and too wide to be
+  // joined.
   Options options = uniform(0.05);
   options.hausd = 1e-5;
   const Report report = report_of(roof(0.0002), options);
