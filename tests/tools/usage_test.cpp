@@ -77,6 +77,15 @@ TEST_F(UsageTest, RefusesLevelSetsThatAreNone) {
   expect_refused({"implicit", "in.mesh", "-o", "out.mesh"}, "--sol");
 }
 
+TEST_F(UsageTest, TellsThatALevelSetLeavesNoInterface) {
+  write_text(file("phi.sol"),
+             "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n"
+             "8 1 1 -1e-9 1 1 1 1 1 1 1\nEnd\n");
+  const Outcome outcome = cavea({"implicit", "in.mesh", "--sol", "phi.sol", "-o", "out.mesh"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.err.find("phi.sol: there is no interface"), std::string::npos) << outcome.err;
+}
+
 TEST_F(UsageTest, RefusesNumbersThatAreNone) {
   for (const char* name :
        {"hausd", "hmin", "hmax", "hsiz", "hgrad", "angle", "min-quality", "min-conform", "threads"})

@@ -37,6 +37,10 @@ CutLevelSet cut_by_values(const ImplicitArguments& implicit, LoadedMesh& loaded)
   try {
     CutResult cut = cut_along(loaded.mesh, values, to_cut_options(implicit));
     loaded.mesh = std::move(cut.mesh);
+    if (cut.report.interface_triangles == 0)
+      loaded.warnings.push_back(implicit.values +
+                                ": there is no interface: one side is empty, as it is smaller than "
+                                "what a cut makes, outside the mesh, or removed");
     return {implicit.values, cut.report, {}};
   } catch (const InputError& e) {
     throw InputError(implicit.values + ": " + e.what());  // values do not know where they came from
