@@ -48,10 +48,8 @@ bool keeps_balls(const TetMesh& mesh, const Cavity& cavity) {
       if (mesh.vertex_tags[v] & tag::kSurface) vertices.push_back(v);
   std::ranges::sort(vertices);
   vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
-  return std::ranges::all_of(vertices, [&](VertexId v) {
-    return std::ranges::find(cavity.removed_vertices, v) != cavity.removed_vertices.end() ||
-           pieces_at(v, before) == pieces_at(v, after);
-  });
+  return std::ranges::all_of(
+      vertices, [&](VertexId v) { return pieces_at(v, before) == pieces_at(v, after); });
 }
 
 }  // namespace cavea

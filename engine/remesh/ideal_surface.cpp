@@ -42,11 +42,11 @@ FeatureOptions feature_options(const Options& options, const ResolvedOptions& r)
 /// A mesh is only brought onto a surface that is its own.
 /// \throw InputError naming the farthest vertex
 void require_near(const TetMesh& mesh, const SurfaceModel& model, double hausd) {
-  // Results are within hausd and the bulge, four of them in all, and programs that drift end at 22
-  // (of a default that is 0.001 of the diagonal, whatever hausd is here).
-  constexpr double kFarthest = 30, kDefaultHausd = 0.001;
+  // Results are within hausd and the bulge, four of them in all, and programs that drift end at 22.
+  // The mesh may have been made with a larger hausd than is asked for here.
+  constexpr double kFarthest = 30, kShareOfDiagonal = 0.03;
   const OffVertex far = farthest_vertex(mesh, model);
-  if (far.distance <= kFarthest * std::max(hausd, kDefaultHausd * box_diagonal(mesh))) return;
+  if (far.distance <= std::max(kFarthest * hausd, kShareOfDiagonal * box_diagonal(mesh))) return;
   const Vec3& where = mesh.points[far.vertex];
   throw InputError(fmt::format(
       "the mesh is not on the surface given: its vertex at ({:g}, {:g}, {:g}) is {:g} away",
